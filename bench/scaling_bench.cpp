@@ -13,7 +13,7 @@
 #include <fstream>
 #include <thread>
 
-#include "limpet/campaign/merge.hpp"
+#include "limpet/campaign/results.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/gnuplot.hpp"

@@ -9,7 +9,7 @@
 
 namespace limpet {
 
-/// All that the loop told its plant in one step.
+/// All inputs of the loop to its plant in one step.
 struct PlantStep {
     struct Applied {
         plant::Body body;
@@ -40,7 +40,7 @@ struct PlantStep {
     }
 };
 
-/// A plant that writes down what it is told, so that the same physics can be run again without the
+/// A plant that records its inputs, so that the same physics can be run again without the
 /// loop: same model, same step schedule, same forces, same contacts.
 class TapePlant final : public plant::Plant, private CupBearer {
 public:

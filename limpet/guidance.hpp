@@ -22,7 +22,7 @@ struct GuidanceInput {
 
 struct GuidanceOutput {
     Setpoint setpoint;                    ///< motion, arming, pump and valve
-    std::optional<EventName> event = {};  ///< to be told and recorded
+    std::optional<EventName> event = {};  ///< to be reported and recorded
     std::optional<Outcome> outcome = {};  ///< the flight ends so
     std::string_view reason = {};         ///< of event and outcome, a literal
 };

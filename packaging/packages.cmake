@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, openmpi-bin, ${library}, pyth
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "perching of multirotors on walls with a suction cup
  Simulates, reproduces and flies the perching of a multirotor on vertical
  walls with a suction cup: one flight or thousands, figures and pages of
- them, a companion computer beside a real PX4.")
+ them, a companion computer next to a real PX4.")
 
 set(CPACK_DEBIAN_DATA_PACKAGE_NAME limpet-data)
 set(CPACK_DEBIAN_DATA_PACKAGE_SECTION science)
@@ -52,7 +52,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "limpet-data ${same}")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "${mujoco}")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "perching of multirotors: shared library
  Limpet's simulation of perching with a suction cup, for programs of one's
- own: fly, step, save and branch a flight, bring stations of one's own.")
+ own: fly, step, save and branch a flight, add your own stations.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblimpet-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -79,9 +79,9 @@ find_program(LIMPET_GZIP gzip)
 find_package(Git QUIET)
 set(date "Thu, 01 Jan 1970 00:00:00 +0000")
 if(GIT_FOUND)
-  execute_process(COMMAND ${GIT_EXECUTABLE} -C ${LIMPET_ROOT} log -1 --format=%aD OUTPUT_VARIABLE said
+  execute_process(COMMAND ${GIT_EXECUTABLE} -C ${LIMPET_ROOT} log -1 --format=%aD OUTPUT_VARIABLE committed
     OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  set(date "${said}")
+  set(date "${committed}")
 endif()
 set(changes ${PROJECT_BINARY_DIR}/packaging)
 configure_file(packaging/debian/changelog.in ${changes}/changelog.Debian @ONLY)

@@ -33,7 +33,7 @@ fetch_newer() {
     rm -rf --one-file-system "$folder/fetched"
 }
 
-# add_newer ROOT MIRROR: into ROOT/opt/limpet, which CMake is told of
+# add_newer ROOT MIRROR: into ROOT/opt/limpet, which is passed to CMake
 add_newer() {
     local root=$1 mirror=$2 suite kind folder=$1/opt/newer
     for suite in $(awk '!/^#/ { print $1 }' "$limpet_root/packaging/portable_newer.txt" | sort -u); do

@@ -12,7 +12,7 @@ namespace limpet::gazebo11 {
 
 /// The paper's joint between cup and wall: made as the world runs, taken out again. Its load is
 /// read by the engine's feedback and smoothed. To a static model it is a joint to the world, as the
-/// engine has it: where such a model is put elsewhere, the joint stays, and moved() says so.
+/// engine has it: where such a model is put elsewhere, the joint stays, and moved() returns true.
 class CupJoint {
 public:
     /// @param name  of the joint: no other of the model has it

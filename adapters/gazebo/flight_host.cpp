@@ -31,7 +31,7 @@ FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
                                                            [this] { return wait_for_gazebo(); });
     flight_.conduct.stop = &interrupted_;
     if (flight_.live != nullptr) {
-        flight_.conduct.beside = &flight_.live->live();
+        flight_.conduct.mirror = &flight_.live->live();
         flight_.watch.on_tick = [this, more = std::move(flight_.watch.on_tick)](
                                     simulation::Flight& flown, const guidance::EventList& events) {
             if (more) {

@@ -41,7 +41,7 @@ public:
     /// @throws what fly() throws
     void update();
     /// The world was reset: a flight that is under way ends where it is, its recording whole, and
-    /// another begins at the next update, with a recording beside it.
+    /// another begins at the next update, with a recording next to it.
     void restart();
 
     /// Ends a flight that is under way where it is, its recording whole; Gazebo steps no more.

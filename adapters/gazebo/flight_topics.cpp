@@ -73,7 +73,7 @@ void FlightTopics::tick(const simulation::Flight& flight) {
     }
 }
 
-void FlightTopics::tell(const Event& event) {
+void FlightTopics::publish(const Event& event) {
     event_->Publish(text_message(fmt::format("{:.3f} {} {}: {}", event.time_s, event.station,
                                              to_string(event.name), event.reason)));
 }

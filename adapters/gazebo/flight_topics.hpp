@@ -30,7 +30,7 @@ public:
 
     /// After every tick.
     void tick(const simulation::Flight& flight);
-    void tell(const Event& event);
+    void publish(const Event& event);
 
 private:
     struct Rotor {

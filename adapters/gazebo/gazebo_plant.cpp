@@ -100,7 +100,7 @@ void GazeboPlant::step(const plant::StepMode& mode) {
         slider_N_ = twin_.joint_force(0, twin_.change());
         model_->slider_->SetForce(0, slider_N_);
     }
-    before_ = tell();
+    before_ = report();
     if (!model_->next_()) {
         last_ = before_;
         return;
@@ -109,14 +109,14 @@ void GazeboPlant::step(const plant::StepMode& mode) {
     start_twin();
 }
 
-GazeboPlant::Told GazeboPlant::tell() const {
-    Told told{.bodies = {}, .slider = slider()};
-    for (std::size_t body = 0; body < told.bodies.size(); ++body) {
+GazeboPlant::StepReport GazeboPlant::report() const {
+    StepReport made{.bodies = {}, .slider = slider()};
+    for (std::size_t body = 0; body < made.bodies.size(); ++body) {
         if (model_->links_[body] != nullptr) {
-            told.bodies[body] = kinematics(static_cast<plant::Body>(body));
+            made.bodies[body] = kinematics(static_cast<plant::Body>(body));
         }
     }
-    return told;
+    return made;
 }
 
 void GazeboPlant::break_legs(const std::array<bool, 2>& lost) {
@@ -262,7 +262,7 @@ void GazeboPlant::restore(const plant::PlantState& state) {
     for (const physics::LinkPtr& part : links) {
         part->SetWorldPose(Pose3d(v[0], v[1], v[2], v[3], v[4], v[5], v[6]));
         const Vector3d rate(v[10], v[11], v[12]);
-        // Gazebo sets the speed of the centre of mass, and tells that of the frame.
+        // Gazebo sets the speed of the centre of mass, and returns that of the frame.
         const Vector3d arm = part->WorldCoGPose().Pos() - part->WorldPose().Pos();
         part->SetLinearVel(Vector3d(v[7], v[8], v[9]) + rate.Cross(arm));
         part->SetAngularVel(rate);

@@ -27,7 +27,7 @@ public:
     /// the plant applies them, and a vehicle at rest must not fall asleep. From then on ODE's
     /// complaints of its contact solver are counted instead of printed, a line a step: with
     /// friction the direct solver now and then takes what it has found until then. All else that
-    /// ODE says goes on to stderr.
+    /// ODE prints goes on to stderr.
     /// @param scenario  what the loop believes; the world must agree
     /// @param next      called once by each step of the plant
     /// @throws InputError in one line when the engine is not ODE, when a link or joint is missing
@@ -61,7 +61,8 @@ private:
 /// The loop's plant in Gazebo: wrenches go to links, a step is a world update. The world's step
 /// length follows the loop's. Contacts are ODE's, always on; they are read at the end of the step
 /// that made them, before anybody can take a model that touches out of the world. Once Gazebo steps
-/// no more the plant tells the last step and moves nothing: world and bodies are being taken apart.
+/// no more the plant reports the last step and moves nothing: world and bodies are being taken
+/// apart.
 class GazeboPlant final : public plant::Plant {
 public:
     explicit GazeboPlant(std::shared_ptr<const GazeboModel> model);
@@ -85,14 +86,14 @@ public:
                   const Vector3& w_WB_B_rad_s) override;
 
 private:
-    /// What is told of a step.
-    struct Told {
+    /// The result of a step.
+    struct StepReport {
         std::array<Kinematics, 3> bodies;  ///< by Body
         plant::SliderMotion slider;
     };
     [[nodiscard]] const gazebo::physics::LinkPtr& link(plant::Body body) const;
     void start_twin();
-    [[nodiscard]] Told tell() const;
+    [[nodiscard]] StepReport report() const;
     [[nodiscard]] Wrench contacts_W() const;
     void set_step(double step_s);
     void break_legs(const std::array<bool, 2>& lost);
@@ -103,9 +104,9 @@ private:
     plant::MechanismBearer<double> bearer_{twin_};
     double slider_N_ = 0.0;
     std::array<bool, 2> legs_lost_{};
-    Wrench contacts_;           ///< of the last step, on the base about B, in W
-    Told before_;               ///< the step that is being taken
-    std::optional<Told> last_;  ///< Gazebo steps no more: from here on this is told
+    Wrench contacts_;                 ///< of the last step, on the base about B, in W
+    StepReport before_;               ///< the step that is being taken
+    std::optional<StepReport> last_;  ///< Gazebo steps no more: from here on this is the result
     gazebo::event::ConnectionPtr on_stepped_;
 };
 

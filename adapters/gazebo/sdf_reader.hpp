@@ -30,7 +30,7 @@ struct SdfReading {
 /// map, its attributes entries; an empty one is null; another is a scalar without blanks at its
 /// ends. One of `lists` is a list, also when it stands once.
 /// @throws InputError for a child that stands twice and is not of `lists`, and for one that has
-///         text beside attributes or children
+///         text next to attributes or children
 [[nodiscard]] scenario::YamlNode sdf_tree(const sdf::ElementPtr& element,
                                           const SdfReading& reading);
 
@@ -38,8 +38,8 @@ struct SdfReading {
 /// @throws InputError
 [[nodiscard]] ignition::math::Pose3d read_pose(const scenario::YamlNode& node);
 
-/// Says `limpet: LINE` on stderr and ends the process at once, with what was written flushed: other
-/// threads of the server may wait for what will not come.
+/// Prints `limpet: LINE` on stderr and ends the process at once, with what was written flushed:
+/// other threads of the server may wait for what will not come.
 [[noreturn]] void end_server(int exit_code, std::string_view line);
 
 /// Runs a part of a plugin: InputError ends the server with 2, Interrupted with 130, any other
@@ -47,8 +47,8 @@ struct SdfReading {
 void run_or_end(const std::function<void()>& part);
 
 /// Loads a plugin, as run_or_end() does while the server comes up. In a world that runs already the
-/// model was spawned, and the server is somebody's: what the plugin cannot use is said, and it is
-/// not loaded.
+/// model was spawned, and the server serves others too: an error of the plugin is printed, and it
+/// is not loaded.
 /// @return whether it is
 bool load_or_end(const gazebo::physics::World& world, const std::function<void()>& load);
 

@@ -38,7 +38,7 @@ set -u
 plugins=build/bullseye
 export GAZEBO_IP=127.0.0.1 GAZEBO_MODEL_DATABASE_URI='' ALSOFT_DRIVERS=null
 export GAZEBO_PLUGIN_PATH=$PWD/$plugins:$GAZEBO_PLUGIN_PATH
-export GAZEBO_RESOURCE_PATH=${world%/*}:$GAZEBO_RESOURCE_PATH  # materials stand beside the world
+export GAZEBO_RESOURCE_PATH=${world%/*}:$GAZEBO_RESOURCE_PATH  # materials are next to the world
 port=$(free_port $((12000 + RANDOM % 8000))) || { say "limpet: no free port for Gazebo's master"; exit 1; }
 export GAZEBO_MASTER_URI=http://127.0.0.1:$port
 
@@ -57,7 +57,7 @@ fi
 
 display=()
 [ "$camera" = no ] || display=(xvfb-run -a -s '-screen 0 1280x1024x24' env LIBGL_ALWAYS_SOFTWARE=1)
-# The plugin tells the flight on standard output; the pipe is marked with real time for the picture.
+# The plugin prints the flight on standard output; the pipe is marked with real time for the picture.
 coproc server { exec timeout -k 5 "$time_limit" "${display[@]}" gzserver "$world" 2>"$log"; }
 children+=("$server_PID")
 pid=$server_PID
@@ -74,7 +74,7 @@ case $code in
     2) grep '^limpet: ' "$log" >&2; exit 2 ;;
     *)
         if [ -s "$LIMPET_RESULT" ] && grep -q 'thread: trying joining itself' "$log"; then
-            # now and then, as it takes itself down after a flight that is told and recorded:
+            # now and then, as it takes itself down after a flight that is printed and recorded:
             # gazebo-classic, issue 2019
             code=0
         elif grep -q 'Address already in use' "$log"; then

@@ -76,7 +76,7 @@ make_root() {
     say "making a root folder of Debian 11 with Gazebo 11 and ROS 1, once: $root"
     say "  530 MB to download, 2.0 GB on disk, three to five minutes ..."
     if [ -t 2 ]; then
-        bootstrap "$mirror" "$making" >&2 || stop "mmdebstrap failed; what it said is above"
+        bootstrap "$mirror" "$making" >&2 || stop "mmdebstrap failed; its output is above"
     else
         step "  downloading and unpacking ..." bootstrap "$mirror" "$making"
     fi
@@ -118,7 +118,7 @@ holds_more() {
     return 1
 }
 
-# show_file FILE: to `enter`, with what lies beside and below it, read-only; alone where that is too much
+# show_file FILE: to `enter`, with the files next to and below it, read-only; alone where that is too much
 show_file() {
     local file folder
     file=$(realpath -ms "$1")

@@ -181,7 +181,7 @@ void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
     }
     report(output);
     if (topics_->publish(state_.status, input.time_s)) {
-        tell(state_, input.time_s);
+        publish(state_, input.time_s);
     }
 }
 
@@ -190,7 +190,7 @@ void SuctionCupPlugin::report(const suction::CupOutput& output) {
         return;
     }
     topics_->publish(*output.event);
-    tell(*output.event);
+    publish(*output.event);
     gzmsg << fmt::format("limpet: {:.3f} s {}: {} {}: {}\n", output.event->time_s,
                          model_->GetName(), to_string(output.event->name),
                          spot_ ? (spot_->of_world() ? "the world" : spot_->collision) : "no wall",

@@ -44,7 +44,7 @@ namespace limpet::gazebo11 {
 ///
 /// What cannot be used stops the server with one line and exit code 2: an unknown element, a value
 /// out of range, a link or surface that is not there, a name that another cup has. In a world that
-/// runs already the line is said and the model stays without its cup. A target that is not in the
+/// runs already the line is logged and the model stays without its cup. A target that is not in the
 /// world is warned of, and held once it is.
 ///
 /// A target that moves is lifted, dragged and turned: the lip's force acts on both. It must be
@@ -87,9 +87,9 @@ protected:
     /// @param name  MODEL/PLUGIN
     /// @throws InputError
     virtual void join(const std::string& /*name*/) {}
-    /// When its topics tell it: pressure and state.
-    virtual void tell(const suction::CupState& /*state*/, double /*time_s*/) {}
-    virtual void tell(const Event& /*event*/) {}
+    /// Whenever its topics are published: pressure and state.
+    virtual void publish(const suction::CupState& /*state*/, double /*time_s*/) {}
+    virtual void publish(const Event& /*event*/) {}
     [[nodiscard]] const SuctionCupSettings& settings() const { return settings_; }
     /// One of them, as SuctionCupTopics::turn().
     [[nodiscard]] bool command(const std::string& what, bool on) { return topics_->turn(what, on); }

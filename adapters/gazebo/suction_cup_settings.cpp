@@ -34,7 +34,7 @@ CupTarget target_of(const scenario::YamlNode& node, const suction::Surface& surf
     return target;
 }
 
-/// sdformat writes a child that says true as 1: a row takes both.
+/// sdformat writes `true` in a child as 1: a row takes both.
 const ParameterTable<SuctionCupSettings>& plugin_table() {
     using S = SuctionCupSettings;
     static const ParameterTable<S> table = {

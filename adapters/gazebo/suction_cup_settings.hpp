@@ -28,7 +28,7 @@ struct CupTarget {
     suction::Surface surface;
 };
 
-/// What LimpetSuctionCupPlugin's element says; its keys are described there.
+/// LimpetSuctionCupPlugin's element; its keys are described there.
 struct SuctionCupSettings {
     std::string link;
     ignition::math::Pose3d X_LC;  ///< lip in its link, forward-left-up

@@ -131,7 +131,7 @@ void SuctionCupTopics::on_valve(const IntPtr& message) {
 
 bool SuctionCupTopics::answer(const gazebo::msgs::Request& request, const std::string& what,
                               gazebo::msgs::Response& response) {
-    const auto tell = [&](const auto& message) {
+    const auto pack = [&](const auto& message) {
         response.set_type(message.GetTypeName());
         return message.SerializeToString(response.mutable_serialized_data());
     };
@@ -139,10 +139,10 @@ bool SuctionCupTopics::answer(const gazebo::msgs::Request& request, const std::s
     const CupStatus status = status_;
     lock.unlock();
     if (what == "pressure") {
-        return tell(pressure_message(status));
+        return pack(pressure_message(status));
     }
     if (what == "state") {
-        return tell(state_message(status));
+        return pack(state_message(status));
     }
     const std::optional<bool> wanted = switch_of(request.data());
     return wanted && turn(what, *wanted);

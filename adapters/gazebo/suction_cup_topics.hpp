@@ -12,7 +12,7 @@
 
 namespace limpet::gazebo11 {
 
-/// What was asked of a cup from outside.
+/// Commands to a cup from outside.
 struct CupCommands {
     bool pump_on = false;
     bool valve_open = false;
@@ -41,7 +41,7 @@ public:
     /// Back to what they were at the start.
     void reset();
     /// Once a world update: a change of phase at once, pressure and phase at their rate.
-    /// @return whether they were told now
+    /// @return whether they were published now
     bool publish(const CupStatus& status, double time_s);
     void publish(const Event& event);
 

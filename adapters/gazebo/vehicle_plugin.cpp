@@ -15,12 +15,11 @@
 #include "adapters/gazebo/sdf_reader.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/flight_text.hpp"
-#include "limpet/simulation/result_json.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
 
-void say(const std::string& line) {
+void print_line(const std::string& line) {
     fmt::print("{}\n", line);
     std::fflush(stdout);
 }
@@ -37,7 +36,7 @@ void write_result(const std::filesystem::path& path, const simulation::FlightRes
     }
 }
 
-/// Each sets the world's step, and hears ODE: two would fly at each other's.
+/// Each sets the world's step and takes over ODE's messages: only one is possible.
 std::atomic<const VehiclePlugin*> the_one{nullptr};
 
 void quit() {
@@ -69,11 +68,11 @@ void VehiclePlugin::end_flight() noexcept {
     }
     try {
         host_->interrupt();
-        say("interrupted; the recording is whole up to here");
+        print_line("interrupted; the recording is whole up to here");
         write_result(flight_file(options_.result, host_->flights()), *host_->result());
     } catch (const Interrupted& error) {  // before it began: there is nothing to record
-        say(error.what());
-    } catch (const std::exception& error) {  // a full disk, say: destructors must not throw
+        print_line(error.what());
+    } catch (const std::exception& error) {  // as of a full disk: destructors must not throw
         fmt::print(stderr, "limpet: the flight was not ended well: {}\n", error.what());
     }
 }
@@ -83,7 +82,7 @@ void VehiclePlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
     load_or_end(*world, [&] { configure(std::move(model), sdf); });
 }
 
-/// Whoever waits for a PX4 or a viewer hears that the world is to stop: its destructor comes after
+/// A wait for a PX4 or a viewer ends when the world is to stop: its destructor comes after
 /// that wait.
 void VehiclePlugin::watch_world() {
     constexpr std::chrono::milliseconds kEvery(50);
@@ -118,14 +117,14 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
     flight.recording = options_.recording;
     flight.conduct.speed = options_.speed;
     flight.conduct.on_obstacle = [](const std::string& obstacle) {
-        say("          " + (obstacle.empty() ? "armed" : obstacle));
+        print_line("          " + (obstacle.empty() ? "armed" : obstacle));
     };
     topics_ = std::make_unique<FlightTopics>(*model, sdf->Get<std::string>("name"),
                                              options_.scenario.airframe);
     flight.watch.on_event = [this](const Event& event) {
-        say(simulation::event_line(event));
+        print_line(simulation::event_line(event));
         if (topics_) {
-            topics_->tell(event);
+            topics_->publish(event);
         }
     };
     prepare(parameters, flight);
@@ -147,12 +146,12 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
             live::LiveFlightOptions{.port = *options_.live, .tunes = !by_px4}, options_.scenario,
             stop_);
         flight.live = live_.get();
-        say("live       " + live_->live().address());
+        print_line("live       " + live_->live().address());
     }
     if (by_px4) {
         const px4::Px4WireWatch watch{
-            .on_open = [](const std::string& where) { say("waiting for PX4 on " + where); },
-            .on_text = [](const std::string& text) { say("          PX4: " + text); },
+            .on_open = [](const std::string& where) { print_line("waiting for PX4 on " + where); },
+            .on_text = [](const std::string& text) { print_line("          PX4: " + text); },
             .wait_key = "wait_s"};
         px4_ = std::make_unique<px4::Px4Wires>(
             options_.px4, std::round(options_.scenario.sensors.imu_rate_Hz), true, watch, &stop_);
@@ -161,37 +160,38 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
     host_ = std::make_unique<FlightHost>(std::move(model), std::move(flight));
     the_one = this;
     world_->Physics()->SetRealTimeUpdateRate(0.0);
-    say(fmt::format("{}, seed {}: {}", options_.scenario.name, options_.scenario.seed,
-                    options_.scenario.description));
-    say(simulation::event_head());
+    print_line(fmt::format("{}, seed {}: {}", options_.scenario.name, options_.scenario.seed,
+                           options_.scenario.description));
+    print_line(simulation::event_head());
     on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
         [this](const gazebo::common::UpdateInfo&) { run_or_end([this] { update(); }); });
 }
 
 void VehiclePlugin::update() {
-    if (told_) {
+    if (reported_) {
         world_->SetPaused(true);  // nothing flies it any more; a world reset begins anew
         return;
     }
     host_->update();
     if (host_->result() != nullptr) {
-        told_ = true;
+        reported_ = true;
         end();
     }
 }
 
 void VehiclePlugin::end() {
     const simulation::FlightResult& result = *host_->result();
-    say("");
+    print_line("");
     for (const std::string& line :
          flight_summary(result, [](const std::string& text) { return text; })) {
-        say(line);
+        print_line(line);
     }
     if (const long long complaints = take_solver_complaints(); complaints > 0) {
-        say(fmt::format("engine     ODE's contact solver stopped early {} times", complaints));
+        print_line(
+            fmt::format("engine     ODE's contact solver stopped early {} times", complaints));
     }
     if (live_ != nullptr) {
-        say("live       " + live_->live().report());
+        print_line("live       " + live_->live().report());
     }
     write_result(flight_file(options_.result, host_->flights()), result);
     world_->SetPaused(true);
@@ -202,17 +202,17 @@ void VehiclePlugin::end() {
 
 void VehiclePlugin::Reset() {
     if (px4_ != nullptr) {
-        say("a flight with a PX4 does not begin anew with the world; start gzserver again");
+        print_line("a flight with a PX4 does not begin anew with the world; start gzserver again");
         host_.reset();
-        told_ = true;  // from now on the world stands still
+        reported_ = true;  // from now on the world stands still
         return;
     }
     if (host_ == nullptr) {
         return;  // spawned, and not loaded
     }
     run_or_end([this] { host_->restart(); });
-    say(fmt::format("flight {}", host_->flights()));
-    told_ = false;
+    print_line(fmt::format("flight {}", host_->flights()));
+    reported_ = false;
 }
 
 }  // namespace limpet::gazebo11

@@ -33,12 +33,12 @@ namespace limpet::gazebo11 {
 ///   speed      times real time; 0: as fast as it goes. 1 alone with a px4 on
 ///              a serial wire, which has a clock of its own                    0, watched 1
 ///   live       port where Foxglove and Lichtblick may watch (docs/live.md);
-///              0: any that is free, and told                                  nobody may
+///              0: any that is free, printed                                   nobody may
 ///   recording  MCAP file to write                                             none
 ///   result     JSON file to write when the flight is over                     none
 ///   when_over  pause the world, or quit the server                            pause
 ///
-/// How it goes is told on Gazebo's transport, see FlightTopics. The environment overrides each:
+/// Its state is published on Gazebo's transport, see FlightTopics. The environment overrides each:
 /// LIMPET_SCENARIO, LIMPET_SET (parts between semicolons), LIMPET_SPEED, ... What cannot be used
 /// stops the server with one line and exit code 2. The world's own real_time_update_rate is set
 /// aside. A world reset begins the flight anew. One vehicle flies in a gzserver.
@@ -60,7 +60,7 @@ protected:
     /// From prepare() on.
     [[nodiscard]] gazebo::physics::World& world() const { return *world_; }
     /// Ends a flight that is under way, its recording whole. Whoever gives stations in prepare()
-    /// calls it in its destructor: the flight goes on to the end of its tick and asks them.
+    /// calls it in its destructor: the flight goes on to the end of its tick and uses them.
     void end_flight() noexcept;
 
 private:
@@ -78,7 +78,7 @@ private:
     std::unique_ptr<live::LiveFlight> live_;
     std::unique_ptr<FlightTopics> topics_;
     std::unique_ptr<FlightHost> host_;
-    bool told_ = false;  ///< how it ended
+    bool reported_ = false;  ///< how it ended
     gazebo::event::ConnectionPtr on_update_;
 };
 

@@ -10,7 +10,7 @@ FIELD = re.compile(r"^([\w/]+)(<=\d+)?(\[(<=)?(\d*)\])?\s+(\w+)\s*(?:=\s*(.+)|\s
 
 
 def lines(text, place):
-    """Of each line that says something what FIELD finds in it."""
+    """The match of FIELD in each line with a definition."""
     for number, line in enumerate(text.splitlines(), 1):
         line = line.split("#")[0].strip()
         found = FIELD.match(line)

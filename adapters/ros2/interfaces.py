@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Interfaces of ROS 2 as structs of C++: of every PACKAGE/{msg,srv,action}/NAME.{msg,srv,action} (or PACKAGE/NAME.msg) below the
 folders a header OUT/PACKAGE/NAME.h (NAMEAction.h of an action), named as ROS 1 names it, so that what is written for one is
-compiled for the other; and OUT/type_hashes.h, by which ROS 2 tells definitions of one name apart.
+compiled for the other; and OUT/type_hashes.h, by which ROS 2 distinguishes definitions of one name.
 
     interfaces.py --out OUT [--as PACKAGE:OTHER:NAME,...] FOLDER... PACKAGE=FOLDER...
 
@@ -17,7 +17,7 @@ PRIMITIVES = {"bool": "std::uint8_t", "byte": "std::uint8_t", "char": "std::uint
               "string": "std::string",
               **{f"{sign}int{bits}": f"std::{sign}int{bits}_t" for sign in ("", "u") for bits in (8, 16, 32, 64)}}
 STAMP = "builtin_interfaces/Time"
-# What an action is on the wire, beside its goal, result and feedback: (name, kind of the wire, fields).
+# What an action is on the wire, apart from its goal, result and feedback: (name, kind of the wire, fields).
 OF_ACTION = [("SendGoalRequest", "SendGoal_Request_", "unique_identifier_msgs/UUID goal_id\n{0}Goal goal"),
              ("SendGoalResponse", "SendGoal_Response_", "bool accepted\nbuiltin_interfaces/Time stamp"),
              ("GetResultRequest", "GetResult_Request_", "unique_identifier_msgs/UUID goal_id"),

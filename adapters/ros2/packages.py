@@ -48,8 +48,8 @@ XML = """<?xml version="1.0"?>
 
 def line_of_ros2(line, place):
     """A line of a definition as rosidl takes it, and the package that it needs."""
-    said, hash_, comment = line.partition("#")
-    found = FIELD.match(said.strip())
+    field, hash_, comment = line.partition("#")
+    found = FIELD.match(field.strip())
     if not found:
         return line, None
     kind, bound, array, _, _, name, value, default = found.groups()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Hashes of types as REP 2011 has them (RIHS01): SHA-256 of a type's description, names of fields in it, comments, constants and
-defaults not. By them ROS 2 tells definitions of one name apart (`ros2 topic info --verbose`, a bag's metadata)."""
+defaults not. By them ROS 2 distinguishes definitions of one name (`ros2 topic info --verbose`, a bag's metadata)."""
 
 import hashlib
 import json
@@ -76,8 +76,8 @@ class Types:
                 if nested and nested not in used:
                     used.add(nested)
                     left.append(nested)
-        told = [{"type_name": one, "fields": self.fields[one]} for one in [name, *sorted(used)]]
-        whole = json.dumps({"type_description": told[0], "referenced_type_descriptions": told[1:]})
+        descriptions = [{"type_name": one, "fields": self.fields[one]} for one in [name, *sorted(used)]]
+        whole = json.dumps({"type_description": descriptions[0], "referenced_type_descriptions": descriptions[1:]})
         return "RIHS01_" + hashlib.sha256(whole.encode()).hexdigest()
 
 

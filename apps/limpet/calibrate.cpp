@@ -15,12 +15,12 @@
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/flight_data.hpp"
 #include "limpet/identification/vehicle_fit.hpp"
+#include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/scenario/samples.hpp"
 #include "limpet/scenario/sections.hpp"
 #include "limpet/simulation/model.hpp"
-#include "limpet/vehicle/plausible.hpp"
+#include "limpet/vehicle/airframe.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -43,7 +43,7 @@ struct Calibrated {
     std::string key;
     std::string unit;
     std::optional<Fitted> fitted;
-    double there = kNaN;     ///< the vehicle's own
+    double there = kNaN;     ///< of the vehicle's file
     std::string doubt = {};  ///< why no vehicle has such a number; empty: it may have
 };
 
@@ -51,7 +51,7 @@ struct Calibrated {
 struct Known {
     vehicle::Airframe airframe;
     std::string vehicle;                  ///< by which a scenario names it; empty: by nothing
-    bool named = true;                    ///< false: nothing says which vehicle it is
+    bool named = true;                    ///< false: the vehicle is unknown
     std::vector<std::string> notes = {};  ///< a sentence each
 };
 
@@ -60,15 +60,15 @@ std::string doubt_of(const Fitted& fitted, std::optional<int> axis,
                      const vehicle::AirframeNumbers& airframe) {
     constexpr double kFactor = 8.0;  ///< to either side of what is usual
     if (!std::isfinite(fitted.value) || !std::isfinite(fitted.half_width)) {
-        return "the log does not tell it";
+        return "the log does not determine it";
     }
     if (fitted.value <= fitted.half_width) {
-        return "its interval reaches down to 0: the log does not tell it";
+        return "its interval reaches down to 0: the log does not determine it";
     }
     if (axis && !is_plausible_inertia(airframe, fitted.value, *axis, kFactor)) {
         return fmt::format(
             "{:.3g} kg m2 is implausible: a vehicle of {:.3g} kg with its hubs {:.3g} m out has "
-            "some {:.2g}; the wrong vehicle, or the log does not tell it",
+            "some {:.2g}; the wrong vehicle, or the log does not determine it",
             fitted.value, airframe.mass_kg, hubs_reach_m(airframe),
             usual_inertia_kg_m2(airframe)[*axis]);
     }
@@ -95,44 +95,31 @@ void doubt_what_is_out_of_range(std::vector<Calibrated>& rows) {
 
 std::vector<Calibrated> rows_of(const identification::VehicleFit& fit, const Known& known) {
     const vehicle::AirframeNumbers& airframe = known.airframe;
-    std::vector<Calibrated> rows;
-    constexpr const char* kAxes[] = {"xx", "yy", "zz"};
-    for (int axis = 0; axis < 3; ++axis) {
-        rows.push_back({fmt::format("vehicle.inertia_kg_m2.{}", kAxes[axis]), "kg m2",
-                        fit.inertia_kg_m2[static_cast<std::size_t>(axis)],
-                        airframe.inertia_kg_m2[axis]});
-    }
     const vehicle::RotorParameters& rotor = airframe.rotor;
     const vehicle::SliderParameters& slider = airframe.slider;
-    for (std::size_t axis = 0; axis < rows.size(); ++axis) {
-        if (rows[axis].fitted) {
-            rows[axis].doubt = doubt_of(*rows[axis].fitted, static_cast<int>(axis), airframe);
+    const Vector3& inertia_kg_m2 = airframe.inertia_kg_m2;
+    const identification::PressureFit pressure =
+        fit.pressure.value_or(identification::PressureFit{});
+    std::vector<Calibrated> rows = {
+        {"vehicle.inertia_kg_m2.xx", "kg m2", fit.inertia_kg_m2[0], inertia_kg_m2.x()},
+        {"vehicle.inertia_kg_m2.yy", "kg m2", fit.inertia_kg_m2[1], inertia_kg_m2.y()},
+        {"vehicle.inertia_kg_m2.zz", "kg m2", fit.inertia_kg_m2[2], inertia_kg_m2.z()},
+        {"vehicle.rotor.time_constant_up_s", "s", fit.lag_up_s, rotor.time_constant_up_s},
+        {"vehicle.rotor.time_constant_down_s", "s", fit.lag_down_s, rotor.time_constant_down_s},
+        {"vehicle.rotor.drag_constant_kg", "kg", fit.drag_constant_kg, rotor.drag_constant_kg},
+        {"vehicle.slider.stiffness_N_m", "N/m", fit.slider_stiffness_N_m, slider.stiffness_N_m},
+        {"vehicle.slider.damping_N_s_m", "N s/m", fit.slider_damping_N_s_m, slider.damping_N_s_m},
+        {"vehicle.slider.preload_N", "N", fit.slider_preload_N, slider.preload_N},
+        {"wall.surface.vacuum_pressure_Pa", "Pa", pressure.vacuum_Pa},
+        {"wall.surface.sealing_time_constant_s", "s", pressure.sealing_time_s},
+        {"wall.surface.unsealing_time_constant_s", "s", pressure.unsealing_time_s}};
+    constexpr int kAxes = 3, kDoubted = 5;  // inertia, lags
+    for (int i = 0; i < kDoubted; ++i) {
+        if (Calibrated& row = rows[static_cast<std::size_t>(i)]; row.fitted) {
+            row.doubt =
+                doubt_of(*row.fitted, i < kAxes ? std::optional(i) : std::nullopt, airframe);
         }
     }
-    rows.push_back(
-        {"vehicle.rotor.time_constant_up_s", "s", fit.lag_up_s, rotor.time_constant_up_s});
-    rows.push_back(
-        {"vehicle.rotor.time_constant_down_s", "s", fit.lag_down_s, rotor.time_constant_down_s});
-    for (Calibrated& row : rows) {
-        if (row.fitted && row.doubt.empty()) {
-            row.doubt = doubt_of(*row.fitted, std::nullopt, airframe);
-        }
-    }
-    rows.push_back(
-        {"vehicle.rotor.drag_constant_kg", "kg", fit.drag_constant_kg, rotor.drag_constant_kg});
-    rows.push_back(
-        {"vehicle.slider.stiffness_N_m", "N/m", fit.slider_stiffness_N_m, slider.stiffness_N_m});
-    rows.push_back(
-        {"vehicle.slider.damping_N_s_m", "N s/m", fit.slider_damping_N_s_m, slider.damping_N_s_m});
-    rows.push_back({"vehicle.slider.preload_N", "N", fit.slider_preload_N, slider.preload_N});
-    const auto of_pressure = [&fit](auto member) {
-        return fit.pressure ? (*fit.pressure).*member : std::optional<Fitted>();
-    };
-    using P = identification::PressureFit;
-    rows.push_back({"wall.surface.vacuum_pressure_Pa", "Pa", of_pressure(&P::vacuum_Pa)});
-    rows.push_back({"wall.surface.sealing_time_constant_s", "s", of_pressure(&P::sealing_time_s)});
-    rows.push_back(
-        {"wall.surface.unsealing_time_constant_s", "s", of_pressure(&P::unsealing_time_s)});
     doubt_what_is_out_of_range(rows);
     for (Calibrated& row : rows) {
         row.there = known.named ? row.there : kNaN;
@@ -263,7 +250,7 @@ Known from_recording(const scenario::Scenario& flown) {
     return known;
 }
 
-/// @param options  whose `--vehicle` goes before what a recording says
+/// @param options  `--vehicle` takes precedence over the recording's
 Known known_of(const CalibrateOptions& options, const identification::FlightData& data,
                const std::optional<scenario::Scenario>& flown) {
     if (options.vehicle) {
@@ -328,7 +315,7 @@ void calibrate(CalibrateOptions options) {
     identification::FlightData data;
     Known known;
     if (options.vehicle) {
-        (void)shipped_or_file(*options.vehicle);  // its own errors name no log
+        (void)shipped_or_file(*options.vehicle);  // so that its errors do not name the log
     }
     of_log(options.log, [&] {
         data = identification::read_flight(options.log, options.span);
@@ -344,12 +331,15 @@ void calibrate(CalibrateOptions options) {
     if (data.origin_s > 0.0) {
         known.notes.push_back(
             fmt::format("times are from the first sample, at {:.3f} s", data.origin_s));
-        fit.notes.insert(fit.notes.begin(), data.remarks.begin(), data.remarks.end());
+    }
+    fit.notes.insert(fit.notes.begin(), data.remarks.begin(), data.remarks.end());
+    if (!data.damage.empty()) {
+        fit.notes.insert(fit.notes.begin(), data.damage);
     }
     const std::vector<Calibrated> rows = rows_of(fit, known);
     if (std::none_of(rows.begin(), rows.end(),
                      [](const Calibrated& row) { return row.fitted.has_value(); })) {
-        throw InputError(fmt::format("{}: tells none of the numbers: {}", options.log,
+        throw InputError(fmt::format("{}: determines none of the numbers: {}", options.log,
                                      fmt::join(fit.notes, "; ")));
     }
     const std::vector<std::string> notes = notes_of(fit, rows, known);
@@ -382,7 +372,7 @@ OptionList options_of(CalibrateOptions& options) {
 
 Verb calibrate_verb() {
     return verb<CalibrateOptions>(
-        "calibrate", "Tell inertia, motors' lag, drag, slider, pressure from a flight's log",
+        "calibrate", "Fit inertia, motors' lag, drag, slider, pressure to a flight's log",
         options_of, calibrate,
         "Examples:\n"
         "  limpet fly perch_concrete --set simulation.record_rate_Hz=250\n"

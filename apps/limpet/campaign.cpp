@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -16,7 +15,7 @@
 #include "limpet/core/folder_lock.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/ranks/ranks.hpp"
-#include "limpet/rare/rare_campaign.hpp"
+#include "limpet/rare/rare.hpp"
 #include "limpet/study/study.hpp"
 #include "output.hpp"
 #include "px4_link.hpp"
@@ -26,10 +25,8 @@
 namespace limpet::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-constexpr auto kLineEvery = std::chrono::seconds(5);  ///< where no person watches
 constexpr std::size_t kBar = 30;
 
 struct CampaignOptions {
@@ -48,7 +45,7 @@ struct CampaignOptions {
 
 OptionList options_of(CampaignOptions& options) {
     return joined(
-        {{{"campaign CAMPAIGN", &options.file, "name in campaigns/, or a YAML file"},
+        {{{"campaign CAMPAIGN", &options.file, "name (limpet list campaigns) or YAML file"},
           jobs_option(options.jobs),
           {"--out DIR", &options.out, "folder (default: out/NAME, with --rare out/NAME_rare)"},
           {"--shard I/N", &options.shard, "fly part I of N alone, for limpet merge"},
@@ -104,16 +101,22 @@ std::string bar_text(const campaign::Progress& progress) {
 
 campaign::CampaignWatch campaign_watch(Terminal& terminal) {
     return {.on_progress =
-                [&terminal,
-                 next = Clock::now() + kLineEvery](const campaign::Progress& progress) mutable {
-                    if (terminal.live()) {
-                        terminal.progress(bar_text(progress) + progress_text(progress));
-                    } else if (Clock::now() >= next) {
-                        terminal.line(progress_text(progress));
-                        next = Clock::now() + kLineEvery;
-                    }
+                [&terminal](const campaign::Progress& progress) {
+                    terminal.slow_progress((terminal.live() ? bar_text(progress) : "") +
+                                           progress_text(progress));
                 },
             .stop = stop_on_signals()};
+}
+
+/// What goes on with the same PX4s.
+std::string px4_words(const campaign::Px4Crew& crew) {
+    std::string words = " --autopilot px4";
+    words += crew.start ? " --px4 " + for_shell(*crew.start) : "";
+    words += crew.instances != 1 ? fmt::format(" --instances {}", crew.instances) : "";
+    words += crew.first.number != 0 ? fmt::format(" --instance {}", crew.first.number) : "";
+    words +=
+        crew.wait_s != campaign::Px4Crew().wait_s ? fmt::format(" --wait {:g}", crew.wait_s) : "";
+    return words + (crew.only_px4 ? " --only-px4" : "");
 }
 
 ExitCode conclude(const campaign::Progress& progress, campaign::Results& results,
@@ -124,7 +127,7 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
             "--out {}{}{} --resume",
             progress.finished, progress.runs, for_shell(options.file), for_shell(folder.string()),
             options.shard.empty() ? "" : " --shard " + options.shard,
-            options.on_px4() ? " --autopilot px4" : ""));
+            options.on_px4() ? px4_words(options.px4) : ""));
         return ExitCode::interrupted;
     }
     terminal.line(fmt::format("{} runs flown in {:.1f} s, {:.1f} a second", progress.flown,
@@ -141,13 +144,7 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     if (!options.on_px4()) {
         terminal.line("", "limpet replay " + for_shell(file) + " 0     one run, recorded");
     }
-    if (const auto faults = progress.outcomes.find(campaign::kFault);
-        faults != progress.outcomes.end()) {
-        complain(fmt::format("{} runs broke off by a fault of ours: limpet summary {}",
-                             faults->second, file));
-        return ExitCode::our_fault;
-    }
-    return ExitCode::ok;
+    return code_of_faults(progress.outcomes, file);
 }
 
 std::string crew_text(const CampaignOptions& options, int jobs, int ranks) {
@@ -159,13 +156,12 @@ std::string crew_text(const CampaignOptions& options, int jobs, int ranks) {
                                     : "on " + threads);
 }
 
-/// Where the results are, nobody else's meanwhile.
+/// The folder of the results, locked meanwhile.
 struct Place {
     /// @param suffix  of the folder's name, when it is not given
     Place(const campaign::Campaign& campaign, const CampaignOptions& options,
           const campaign::Shard& shard, const std::string& suffix = "")
-        : folder(make_folder(options.out.empty() ? fs::path("out") / (campaign.name + suffix)
-                                                 : fs::path(options.out))),
+        : folder(make_folder(out_folder(options.out, campaign.name + suffix))),
           lock(folder),
           results(begin_results(campaign, folder, options.resume, shard)) {}
 
@@ -206,7 +202,8 @@ ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
     return conclude(progress, place.results, options, place.folder, terminal);
 }
 
-/// One of several ranks. Where one cannot fly the campaign, none does, and the first says why.
+/// One of several ranks. Where one cannot fly the campaign, none does, and the first reports the
+/// reason.
 ExitCode fly_as_rank(const CampaignOptions& options, int jobs, ranks::RankLink& link) {
     std::optional<campaign::Campaign> campaign;
     std::string why_not;
@@ -218,7 +215,7 @@ ExitCode fly_as_rank(const CampaignOptions& options, int jobs, ranks::RankLink& 
     const campaign::Campaign* loaded = campaign ? &*campaign : nullptr;
     if (link.rank() > 0) {
         serve_rank_0(link, loaded, why_not, jobs, stop_on_signals());
-        return ExitCode::ok;  // rank 0 says how it ended
+        return ExitCode::ok;  // rank 0 reports the end
     }
     std::optional<Place> place;
     try {
@@ -237,7 +234,7 @@ ExitCode search(const CampaignOptions& options) {
     if (!options.shard.empty()) {
         throw InputError("--rare: a search is not parted, leave --shard out");
     }
-    if (sent_home("--rare: a search flies in one process, start it without mpirun or srun")) {
+    if (left_to_rank_0("--rare: a search flies in one process, start it without mpirun or srun")) {
         return ExitCode::ok;
     }
     const campaign::Campaign campaign = campaign::load_campaign(options.file);
@@ -264,11 +261,12 @@ ExitCode fly_campaign(const CampaignOptions& options, const Given& given) {
         return search(options);
     }
     if (options.on_px4()) {
-        if (sent_home("--autopilot px4: flies in one process, start it without mpirun or srun; "
-                      "--shard shares it out")) {
+        if (left_to_rank_0(
+                "--autopilot px4: flies in one process, start it without mpirun or srun; "
+                "--shard shares it out")) {
             return ExitCode::ok;
         }
-    } else if (options.shard.empty()) {  // who gives each its shard has them fly by themselves
+    } else if (options.shard.empty()) {  // processes with a shard each are independent
         if (ranks::RankLink* link = ranks_started()) {
             return fly_as_rank(options, given("--jobs") ? options.jobs : link->processors(), *link);
         }

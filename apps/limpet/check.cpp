@@ -24,11 +24,11 @@
 #include "limpet/remarks/remarks.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/scenario/samples.hpp"
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/wire_log.hpp"
+#include "output.hpp"
 
 namespace limpet::app {
 namespace {
@@ -66,6 +66,20 @@ bool check_wire(const std::string& file) {
     return true;
 }
 
+/// @param notes  more lines, which are no remarks
+void print_verdict(const std::string& verdict, const std::vector<std::string>& remarks,
+                   const std::vector<std::string>& notes = {}) {
+    const std::size_t count = remarks.size();
+    fmt::print("{}{}\n", verdict,
+               count == 0 ? "" : fmt::format("; {} remark{}", count, count == 1 ? "" : "s"));
+    for (const std::string& note : notes) {
+        fmt::print("  {}\n", note);
+    }
+    for (const std::string& remark : remarks) {
+        fmt::print("  remark: {}\n", remark);
+    }
+}
+
 void check_recording(const std::string& file) {
     if (check_wire(file)) {
         return;
@@ -74,11 +88,13 @@ void check_recording(const std::string& file) {
     if (!recording.damage.empty()) {
         throw InputError(file + ": " + recording.damage);
     }
-    fmt::print("{}: a whole recording, {} topics, {} events\n", file, recording.tables.size(),
-               recording.events.size());
-    for (const std::string& remark : recording.remarks) {
-        fmt::print("  {}\n", remark);
-    }
+    const auto counted_of = [](std::size_t count, const char* what) {
+        return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+    };
+    print_verdict(fmt::format("{}: a whole recording, {}, {}", file,
+                              counted_of(recording.tables.size(), "topic"),
+                              counted_of(recording.events.size(), "event")),
+                  {}, recording.remarks);
 }
 
 /// What is checked, and how its user calls it: by a name or by its file.
@@ -87,29 +103,18 @@ struct Checked {
     fs::path file;
 };
 
-/// For the end of a verdict.
-std::string counted(std::size_t remarks) {
-    return remarks == 0 ? "" : fmt::format("; {} remark{}", remarks, remarks == 1 ? "" : "s");
-}
-
-void print_remarks(const std::vector<std::string>& remarks) {
-    for (const std::string& remark : remarks) {
-        fmt::print("  remark: {}\n", remark);
-    }
-}
-
 void check_scenario(const Checked& it) {
     const scenario::Scenario scenario = scenario::load_scenario(it.file.string());
     (void)simulation::build_model(scenario);  // the plant compiles it as well
-    const std::vector<std::string> warnings = remarks::warnings(scenario);
-    fmt::print("{}: a good scenario: {}{}\n", it.name, scenario.description,
-               counted(warnings.size()));
+    std::vector<std::string> notes;
     for (const remarks::Note& note : remarks::notes_of(scenario)) {
         if (!note.warns) {
-            fmt::print("  {}\n", note.text);
+            notes.push_back(note.text);
         }
     }
-    print_remarks(warnings);
+    print_verdict(fmt::format("{}: a good scenario{}{}", it.name,
+                              scenario.description.empty() ? "" : ": ", scenario.description),
+                  remarks::warnings(scenario), notes);
 }
 
 /// Why a vehicle does not hover in still air for some seconds; empty: it does.
@@ -144,7 +149,7 @@ void check_vehicle(const Checked& it) {
     try {
         hover = scenario::load_scenario_text(
             "vehicle: " + path + "\nmission: hover\nsimulation: {hover_s: 4}\n", file);
-    } catch (const InputError& error) {  // of which who asked has written no line
+    } catch (const InputError& error) {  // of a text that is made here
         const std::string why = error.what(), where = file + ":1: vehicle";
         throw InputError(why.starts_with(where) ? file + why.substr(where.size()) : why);
     }
@@ -154,19 +159,16 @@ void check_vehicle(const Checked& it) {
             fmt::format("{}: does not hover: flown by mission hover in still air it {}{}{}",
                         it.name, why, warnings.empty() ? "" : "; ", fmt::join(warnings, "; ")));
     }
-    fmt::print("{}: a good vehicle of {:.2f} kg{}\n", it.name, mass_kg, counted(warnings.size()));
-    print_remarks(warnings);
+    print_verdict(fmt::format("{}: a good vehicle of {:.2f} kg", it.name, mass_kg), warnings);
 }
 
 void check_campaign(const Checked& it) {
     const campaign::Campaign campaign = campaign::load_campaign(it.file.string());
-    std::vector<std::string> remarks;
-    if (std::string uneven = campaign::uneven_runs(campaign.keys, campaign.runs); !uneven.empty()) {
-        remarks.push_back(std::move(uneven));
-    }
-    fmt::print("{}: a good campaign: {} runs of {}{}\n", it.name, campaign.runs,
-               campaign.scenario_name, counted(remarks.size()));
-    print_remarks(remarks);
+    std::vector<std::string> remarks = {campaign::uneven_runs(campaign.keys, campaign.runs)};
+    std::erase(remarks, "");
+    print_verdict(fmt::format("{}: a good campaign: {} runs of {}", it.name, campaign.runs,
+                              campaign.scenario_name),
+                  remarks);
 }
 
 void check_companion(const Checked& it) {
@@ -190,7 +192,7 @@ void check_propeller(const Checked& it) {
                identification::read_propeller_file(it.file).size());
 }
 
-/// Units that are not what a header says.
+/// Units that differ from the header's.
 std::vector<std::string> log_remarks(const identification::FlightData& log) {
     std::vector<std::string> remarks = {
         identification::suspected_pressure_unit(log.pressure.pressure_Pa, kAtmosphere_Pa),
@@ -213,13 +215,15 @@ void check_log(const Checked& it) {
             parts.push_back(fmt::format("{} {}", what, count));
         }
     }
-    const std::vector<std::string> remarks = log_remarks(log);
-    fmt::print("{}: a good log ({}), samples: {}{}\n", it.name, log.kind, fmt::join(parts, ", "),
-               counted(remarks.size()));
-    print_remarks(remarks);
-    for (const std::string& remark : log.remarks) {
-        fmt::print("  {}\n", remark);
+    if (parts.empty()) {
+        throw InputError(
+            fmt::format("{}: a log ({}) without pressure, gyro, motor commands, "
+                        "velocity or force: nothing to identify or calibrate by",
+                        it.name, log.kind));
     }
+    print_verdict(
+        fmt::format("{}: a good log ({}), samples: {}", it.name, log.kind, fmt::join(parts, ", ")),
+        log_remarks(log), log.remarks);
 }
 
 void check_yaml(const Checked& it) {
@@ -229,14 +233,6 @@ void check_yaml(const Checked& it) {
         case scenario::FileKind::campaign: check_campaign(it); break;
         case scenario::FileKind::companion: check_companion(it); break;
     }
-}
-
-/// A recording, one that is being written or was cut short, or one that is packed as a whole.
-bool is_recording_name(const fs::path& file) {
-    const std::string ending = file.extension().string();
-    const bool more =
-        ending == ".part" || ending == ".zstd" || ending == ".zst" || ending == ".lz4";
-    return ending == ".mcap" || (more && file.stem().extension() == ".mcap");
 }
 
 /// By how its name ends, and YAML by what is in it.
@@ -298,7 +294,7 @@ void check_name(const std::string& name) {
     if (found.size() == 1) {
         found.front().check({name, found.front().file});
     } else if (found.size() > 1) {
-        throw InputError(fmt::format("{}: is a {} and a {}; say {} or {}", in_quotes(name),
+        throw InputError(fmt::format("{}: is a {} and a {}; give {} or {}", in_quotes(name),
                                      found[0].kind, found[1].kind, found[0].file.string(),
                                      found[1].file.string()));
     } else if (!name.empty() && is_there(name)) {
@@ -311,7 +307,7 @@ void check_name(const std::string& name) {
         throw InputError(
             in_quotes(name) +
             ": no such file, scenario, vehicle, campaign, companion, surface or sample" +
-            scenario::hint(name, names, "limpet list KIND tells what there is"));
+            scenario::hint(name, names, "limpet list KIND lists them"));
     }
 }
 

@@ -18,12 +18,12 @@
 namespace limpet::app {
 namespace {
 
-/// Addresses as they are told, in the order of wire::Medium.
+/// Forms of an address, in the order of wire::Medium.
 constexpr std::array<std::string_view, 5> kForms = {
     "tcp:HOST:PORT", "udp:HOST:PORT", "udp-broadcast:HOST:PORT",
     "udp-multicast:GROUP:PORT[@INTERFACE]", "serial:DEVICE:BAUD"};
 
-/// A number within both bounds; CLI's own range lets NaN pass.
+/// A number within both bounds; the range of CLI11 accepts NaN.
 CLI::Validator between(double least, double most) {
     return CLI::Validator(
         [least, most](std::string& text) {
@@ -36,7 +36,7 @@ CLI::Validator between(double least, double most) {
         "");
 }
 
-/// An unset variable of a script's would otherwise mean that the option was not given.
+/// An unset variable of a script would otherwise mean that the option was not given.
 CLI::Validator not_empty() {
     return CLI::Validator(
         [](std::string& text) {
@@ -83,7 +83,7 @@ void require_utf8(int argc, char** argv) {
     }
 }
 
-/// The first word must be a verb; said before the parser only misses one.
+/// The first word must be a verb; checked here, as the parser's message names no verb.
 void require_verb(const std::vector<Verb>& verbs, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') {
         return;
@@ -102,7 +102,7 @@ void require_verb(const std::vector<Verb>& verbs, int argc, char** argv) {
                           : fmt::format(", did you mean {}? (limpet {} --help)", near, near)));
 }
 
-/// What the parser found no place for, and what was meant by it.
+/// What the parser did not take, and what was probably meant.
 /// @param parser  of the verb, or of the program where none was reached
 /// @return empty: there is no such word
 std::string stray_word(const CLI::App& parser, const std::vector<std::string>& words) {
@@ -129,7 +129,7 @@ std::string stray_word(const CLI::App& parser, const std::vector<std::string>& w
     return {};
 }
 
-/// What an option takes, as the help tells it: "DIR", "KIND:{a,b}".
+/// What an option takes, as in the help: "DIR", "KIND:{a,b}".
 OptionText text_of(const CLI::Option& option) {
     OptionText text{.about = option.get_description(),
                     .required = option.get_required(),
@@ -141,11 +141,11 @@ OptionText text_of(const CLI::Option& option) {
         text.names.push_back("-" + name);
     }
     if (option.get_expected_max() > 0) {
-        const std::string told = option.get_type_name();
-        text.value = told.substr(0, told.find_first_of(":["));
-        const std::size_t open = told.find('{'), close = told.find('}');
-        if (open != told.npos && close != told.npos) {
-            text.choices = CLI::detail::split(told.substr(open + 1, close - open - 1), ',');
+        const std::string type = option.get_type_name();
+        text.value = type.substr(0, type.find_first_of(":["));
+        const std::size_t open = type.find('{'), close = type.find('}');
+        if (open != type.npos && close != type.npos) {
+            text.choices = CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
         }
     }
     return text;
@@ -169,7 +169,7 @@ ProgramText text_of(const Program& program, const CLI::App& app) {
 }
 
 /// `limpet help --man`, `limpet help --completion bash|zsh`: for who installs it.
-/// @return whether that was asked for
+/// @return whether one of them was given
 bool print_manual(const Program& program, const CLI::App& app, int argc, char** argv) {
     if (argc < 3 || std::string_view(argv[1]) != "help") {
         return false;
@@ -194,12 +194,12 @@ bool print_manual(const Program& program, const CLI::App& app, int argc, char** 
 std::vector<char*> without_help_verb(int argc, char** argv) {
     static char help[] = "--help";
     std::vector<char*> words(argv, argv + argc);
-    const bool asked = argc >= 2 && std::string_view(argv[1]) == "help";
-    if (asked) {
+    const bool help_verb = argc >= 2 && std::string_view(argv[1]) == "help";
+    if (help_verb) {
         words.erase(words.begin() + 1);
         words.resize(std::min<std::size_t>(words.size(), 2));
     }
-    if (asked || argc == 1) {
+    if (help_verb || argc == 1) {
         words.push_back(help);
     }
     return words;
@@ -215,17 +215,17 @@ OptionRule optional() {
     return [](CLI::App&, CLI::Option& option) { option.required(false); };
 }
 
-OptionRule one_of(const std::vector<std::string>& names, bool told) {
-    return [names, told](CLI::App&, CLI::Option& option) {
+OptionRule one_of(const std::vector<std::string>& names, bool in_help) {
+    return [names, in_help](CLI::App&, CLI::Option& option) {
         CLI::Validator member = CLI::IsMember(names);
-        option.check(told ? member : member.description(""));
+        option.check(in_help ? member : member.description(""));
     };
 }
 
-OptionRule range(double least, double most, bool told) {
+OptionRule range(double least, double most, bool in_help) {
     return [=](CLI::App&, CLI::Option& option) {
-        // in words of our own: CLI11's differ from version to version
-        const std::string about = told ? CLI::Range(least, most).get_description() : "";
+        // the message is ours: that of CLI11 differs from version to version
+        const std::string about = in_help ? CLI::Range(least, most).get_description() : "";
         option.check(between(least, most).description(about));
     };
 }
@@ -238,7 +238,7 @@ OptionRule value_each_time() {
     return [](CLI::App&, CLI::Option& option) { option.allow_extra_args(false); };
 }
 
-OptionRule default_told() {
+OptionRule default_in_help() {
     return [](CLI::App&, CLI::Option& option) { option.capture_default_str(); };
 }
 
@@ -254,10 +254,7 @@ Option overrides_option(std::vector<std::string>& overrides, const char* about) 
 
 Option jobs_option(int& jobs) {
     return {"--jobs,-j N", &jobs,
-            "threads, several runs at once in each (default: one a processor)",
-            [](CLI::App&, CLI::Option& option) {
-                option.check(between(1, 1024).description(CLI::Range(1, 1024).get_description()));
-            }};
+            "threads, several runs at once in each (default: one a processor)", range(1, 1024)};
 }
 
 int default_jobs() {
@@ -347,11 +344,11 @@ ExitCode run(const Program& program, int argc, char** argv) {
                                                              : 6));
         }
     } catch (const CLI::ParseError& error) {
-        const auto asked = app.get_subcommands();
-        const CLI::App& parser = asked.empty() ? app : *asked.front();
+        const auto chosen = app.get_subcommands();
+        const CLI::App& parser = chosen.empty() ? app : *chosen.front();
         const std::string stray = stray_word(parser, app.remaining(true));
         throw InputError(fmt::format("{} ({}{} --help)", stray.empty() ? error.what() : stray,
-                                     program.name, asked.empty() ? "" : " " + parser.get_name()));
+                                     program.name, chosen.empty() ? "" : " " + parser.get_name()));
     }
     return code;
 }

@@ -23,7 +23,7 @@ class Option;
 // command_line.cpp alone includes it.
 namespace limpet::app {
 
-/// What the program hands back to the shell.
+/// Exit codes of the program.
 enum class ExitCode {
     ok = 0,
     other_outcome = 1,  ///< --expect named another one; companion: control handed back
@@ -35,31 +35,31 @@ enum class ExitCode {
 /// Where an option's value goes: to a variable, which makes it a flag where that is a bool, or to a
 /// function that is called with the text.
 using OptionTarget =
-    std::variant<bool*, int*, std::uint32_t*, double*, std::optional<double>*, std::string*,
-                 std::optional<std::string>*, std::vector<std::string>*,
+    std::variant<bool*, int*, std::optional<int>*, std::uint32_t*, double*, std::optional<double>*,
+                 std::string*, std::optional<std::string>*, std::vector<std::string>*,
                  std::function<void(const std::string&)>>;
 
 /// What an option takes, beyond its type.
 using OptionRule = std::function<void(CLI::App& verb, CLI::Option& option)>;
 [[nodiscard]] OptionRule required();
-/// Of what is told by its place, which is required otherwise.
+/// Of a positional argument, which is required otherwise.
 [[nodiscard]] OptionRule optional();
-/// @param told  the help says so; else `about` does
-[[nodiscard]] OptionRule one_of(const std::vector<std::string>& names, bool told = true);
-/// @param told  likewise; a range that the help does not tell refuses NaN
-[[nodiscard]] OptionRule range(double least, double most, bool told = true);
+/// @param in_help  the help lists the names; else `about` does
+[[nodiscard]] OptionRule one_of(const std::vector<std::string>& names, bool in_help = true);
+/// @param in_help  likewise; NaN is refused
+[[nodiscard]] OptionRule range(double least, double most, bool in_help = true);
 /// Fewest and most values.
 [[nodiscard]] OptionRule values(int least, int most);
 /// A value each time the option is named; the help shows that there may be more.
 [[nodiscard]] OptionRule value_each_time();
-/// The help says what the variable holds.
-[[nodiscard]] OptionRule default_told();
+/// The help shows the variable's value.
+[[nodiscard]] OptionRule default_in_help();
 /// @param option  described before this one
 [[nodiscard]] OptionRule not_with(const char* option);
 
 struct Option {
     /// Name and, behind a blank, what stands for the value in the help: "--out DIR", "--jobs,-j N";
-    /// a flag has none. Without dashes it is told by its place: "scenario SCENARIO".
+    /// a flag has none. Without dashes it is positional: "scenario SCENARIO".
     std::string name;
     OptionTarget target;
     const char* about;
@@ -146,7 +146,7 @@ struct Program {
     std::vector<Verb> verbs;
 };
 
-/// Does what the command line asks for: runs a verb, or prints help or version.
+/// Runs the command line: a verb, or help or version.
 /// @throws InputError naming what cannot be read in it; and what the verb throws
 [[nodiscard]] ExitCode run(const Program& program, int argc, char** argv);
 

@@ -40,14 +40,14 @@ void check_speed(const CompanionOptions& options, const companion::CompanionConf
     }
     if (options.speed != 1.0 && has_serial(config)) {
         throw InputError(fmt::format(
-            "--speed {}: what hangs on a serial port keeps its own time; only 1 with serial wires",
+            "--speed {}: devices on a serial port run in real time; only 1 with serial wires",
             options.speed));
     }
 }
 
 /// A terminal that is gone (a closed pipe, a lost connection) must not end a flight.
 template <class... Texts>
-void tell(Terminal& terminal, const Texts&... texts) {
+void report(Terminal& terminal, const Texts&... texts) {
     try {
         terminal.line(texts...);
     } catch (const std::system_error&) {
@@ -56,12 +56,13 @@ void tell(Terminal& terminal, const Texts&... texts) {
 }
 
 companion::CompanionWatch session_watch(Terminal& terminal) {
-    return {.on_event =
-                [&terminal](const Event& event) { tell(terminal, simulation::event_line(event)); },
-            .on_line =
-                [&terminal](double time_s, const std::string& text) {
-                    tell(terminal, fmt::format("{:8.3f}  {}", time_s, text));
-                }};
+    return {
+        .on_event =
+            [&terminal](const Event& event) { report(terminal, simulation::event_line(event)); },
+        .on_line =
+            [&terminal](double time_s, const std::string& text) {
+                report(terminal, fmt::format("{:8.3f}  {}", time_s, text));
+            }};
 }
 
 void introduce(const CompanionOptions& options, const companion::CompanionConfig& config,
@@ -81,19 +82,19 @@ void introduce(const CompanionOptions& options, const companion::CompanionConfig
 
 void conclude(const companion::CompanionResult& result, const companion::Wires& wires,
               const std::filesystem::path& recording, Terminal& terminal) {
-    tell(terminal, "");
+    report(terminal, "");
     const std::string outcome =
         result.outcome ? std::string(to_string(*result.outcome)) + ": " : "";
-    tell(terminal, "ended", outcome + result.reason);
-    tell(terminal, "loop",
-         fmt::format("{} ticks, {} of them late by more than a period; {}", result.ticks,
-                     result.late_ticks, text_of(result.lateness)));
-    tell(terminal, "poses", text_of(result.motion_capture));
+    report(terminal, "ended", outcome + result.reason);
+    report(terminal, "loop",
+           fmt::format("{} ticks, {} of them late by more than a period; {}", result.ticks,
+                       result.late_ticks, companion::lateness_text(result.lateness)));
+    report(terminal, "poses", text_of(result.motion_capture));
     for (const std::string& line : signing_report(wires)) {
-        tell(terminal, "signing", line);
+        report(terminal, "signing", line);
     }
     if (!recording.empty()) {
-        tell(terminal, "written", fmt::format("{0} (limpet plot {0})", recording.string()));
+        report(terminal, "written", fmt::format("{0} (limpet plot {0})", recording.string()));
     }
 }
 
@@ -165,7 +166,7 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
     companion::CompanionConduct conduct{
         .dry_run = options.dry_run, .stop = stop, .manager = &manager};
     if (live) {
-        conduct.beside = live.get();
+        conduct.mirror = live.get();
         conduct.wants_end = [&] {
             live->answer(desk);
             return aborted;
@@ -179,7 +180,7 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
     const companion::CompanionResult result = fly(options, config, wires, conduct, terminal);
     if (live) {
         live->say(live::StatusLevel::info, "ended: " + result.reason);
-        tell(terminal, "live", live->report());
+        report(terminal, "live", live->report());
     }
     conclude(result, wires, conduct.recording, terminal);
     return code_of(options, result);
@@ -187,8 +188,8 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
 
 OptionList options_of(CompanionOptions& options) {
     return joined(
-        {{{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
-          {"--check", &options.check, "say what it would do, open nothing"},
+        {{{"config CONFIG", &options.config, "name (limpet list companions) or YAML file"},
+          {"--check", &options.check, "print what it would do, open nothing"},
           {"--dry-run", &options.dry_run,
            "read all inputs, command nothing, report what it would do:\ncarry the vehicle by hand"},
           overrides_option(options.overrides,

@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/compare/figures.hpp"
-#include "limpet/compare/page.hpp"
-#include "limpet/compare/text.hpp"
+#include "limpet/compare/report.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/work.hpp"
 #include "output.hpp"
@@ -41,8 +39,7 @@ compare::Alignment alignment_of(const std::string& text) {
                            : compare::Alignment{.by = compare::Alignment::By::event, .event = text};
 }
 
-/// What the flights are called: as told; else by their folders where those tell them apart; else by
-/// their files.
+/// Names of the flights: those given; else their folders where these differ; else their files.
 std::vector<std::string> labels_of(const CompareOptions& options) {
     if (!options.labels.empty()) {
         if (options.labels.size() != options.recordings.size()) {
@@ -114,7 +111,7 @@ ExitCode compare_flights(const CompareOptions& options) {
     }
     if (!options.out.empty()) {
         const fs::path folder = make_folder(options.out);
-        const std::vector<fs::path> figures = drawn_where_possible([&] {
+        const std::vector<fs::path> figures = with_drawn({}, [&] {
             return draw_comparison(reference, others, comparisons, folder / "figures", work).files;
         });
         write_file(folder / "compare.json", comparison_json(comparisons, checked) + "\n");
@@ -139,29 +136,29 @@ ExitCode compare_flights(const CompareOptions& options) {
 }
 
 OptionList options_of(CompareOptions& options) {
-    return {
-        {"recordings RECORDING", &options.recordings, "the reference, then the others (.mcap)",
-         values(2, 16)},
-        {"--align HOW", &options.align,
-         "events: each stretch at its own event; start; or the name of one event", default_told()},
-        {"--label NAME", &options.labels, "what a flight is called, in the order given",
-         value_each_time()},
-        {"--limit NAME=VALUE", &options.limits,
-         "exit 1 when NAME is further off: a channel, a figure, event, outcome,\n"
-         "contact_pressure_hPa",
-         value_each_time()},
-        {"--out DIR", &options.out, "folder for a page, its figures and compare.json"},
-        {"--json", &options.json, "one JSON object"},
-        {"--markdown", &options.markdown, "a table, a column a flight", not_with("--json")}};
+    return {{"recordings RECORDING", &options.recordings, "the reference, then the others (.mcap)",
+             values(2, 16)},
+            {"--align HOW", &options.align,
+             "events: each stretch at its own event; start; or the name of one event",
+             default_in_help()},
+            {"--label NAME", &options.labels, "what a flight is called, in the order given",
+             value_each_time()},
+            {"--limit NAME=VALUE", &options.limits,
+             "exit 1 when NAME is further off: a channel, a figure, event, outcome,\n"
+             "contact_pressure_hPa",
+             value_each_time()},
+            {"--out DIR", &options.out, "folder for a page, its figures and compare.json"},
+            {"--json", &options.json, "one JSON object"},
+            {"--markdown", &options.markdown, "a table, a column a flight", not_with("--json")}};
 }
 
 }  // namespace
 
 Verb compare_verb() {
     return verb<CompareOptions>(
-        "compare", "Lay flights over each other and tell how they differ from the first",
+        "compare", "Lay flights over each other and report how they differ from the first",
         options_of, compare_flights,
-        "Values are compared at the reference's samples, the other flight's read between its own;\n"
+        "Values are compared at the reference's samples, the other flight's interpolated there;\n"
         "never over a gap. The excess of a longer stretch between two events is left out and "
         "reported.\n"
         "Exit codes: 0 within the limits, 1 beyond one, 2 a recording is missing or damaged.\n");

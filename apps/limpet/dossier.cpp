@@ -53,7 +53,7 @@ ExitCode make_dossier(const DossierChoices& options) {
 
 OptionList options_of(DossierChoices& options) {
     return {
-        {"--file YAML", &options.file, "what is asked (default: paper/dossier.yaml of the data)"},
+        {"--file YAML", &options.file, "the questions (default: paper/dossier.yaml of the data)"},
         {"--out DIR", &options.out, "folder (default: out/dossier)"},
         {"--quick", &options.quick, "fewer flights, the same questions"},
         jobs_option(options.jobs)};

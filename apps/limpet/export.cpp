@@ -41,26 +41,10 @@ struct Subject {
     vehicle::Airframe airframe;
 };
 
-/// A name of a scenario, or a file that names a vehicle.
-bool is_scenario(const std::string& wanted, const fs::path& root) {
-    if (scenario::is_path(wanted)) {
-        return scenario::kind_of(wanted) == scenario::FileKind::scenario;
-    }
-    const auto scenarios = scenario::names_in(root / "scenarios");
-    const auto vehicles = scenario::names_in(root / "vehicles");
-    const bool known = std::count(scenarios.begin(), scenarios.end(), wanted) > 0;
-    if (!known && std::count(vehicles.begin(), vehicles.end(), wanted) == 0) {
-        auto both = vehicles;
-        both.insert(both.end(), scenarios.begin(), scenarios.end());
-        throw InputError(scenario::unknown_name(wanted, "vehicle or scenario", both));
-    }
-    return known;
-}
-
 Subject load(const ExportOptions& options, const fs::path& root) {
-    if (is_scenario(options.wanted, root)) {
+    if (!scenario::is_vehicle(options.wanted, root)) {
         if (!options.wall.empty()) {
-            throw InputError("--wall is of use only with a vehicle: a scenario has its own wall");
+            throw InputError("--wall is of use only with a vehicle: a scenario has a wall already");
         }
         scenario::Scenario scenario =
             scenario::load_scenario(options.wanted, {.overrides = options.overrides});
@@ -92,22 +76,12 @@ std::string lasting(const std::string& wanted) {
     return scenario::is_path(wanted) ? fs::absolute(wanted).lexically_normal().string() : wanted;
 }
 
-/// Overrides with a vehicle's file as the plugin will find it; by the scenario's folder, as it is
-/// read here.
+/// The same of files in overrides: they count from the working folder, then from the scenario's.
 std::vector<std::string> lasting(std::vector<std::string> overrides,
                                  const scenario::Scenario& scenario) {
     for (std::string& text : overrides) {
-        if (std::string here = scenario::with_files_of(text, {}); here != text) {
-            text = std::move(here);
-            continue;
-        }
-        const std::size_t equals = text.find('=');
-        const std::string key = text.substr(0, equals);
-        const std::string value = text.substr(equals + 1);
-        if ((key == "vehicle" || key == "vehicle.base") && scenario::is_path(value)) {
-            text.replace(equals + 1, value.size(),
-                         lasting((scenario.path.parent_path() / value).string()));
-        }
+        text =
+            scenario::with_files_of(scenario::with_files_of(text, {}), scenario.path.parent_path());
     }
     return overrides;
 }
@@ -203,7 +177,7 @@ OptionList options_of(ExportOptions& options) {
         {"--wall SURFACE", &options.wall, "mjcf and world of a vehicle: a wall of this surface"},
         overrides_option(options.overrides, "turn one number of a scenario, as for fly"),
         {"--sensors", &options.sensors,
-         "world only: Gazebo's own LiDARs, IMU, contacts and slider force"},
+         "world only: Gazebo's LiDARs, IMU, contacts and slider force"},
         {"--ros", &options.ros,
          "world of a scenario only: flown over ROS topics\n(adapters/ros/README.md)"},
         {"--camera FOLDER", &options.camera,

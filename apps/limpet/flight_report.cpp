@@ -9,7 +9,7 @@
 #include "limpet/remarks/remarks.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/data_folder.hpp"
-#include "limpet/simulation/result_json.hpp"
+#include "limpet/simulation/flight_text.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -17,27 +17,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tables and figures of the recording, beside it; returns what was written.
-std::vector<fs::path> draw(const FlightOptions& options, const fs::path& path,
-                           const std::atomic<bool>& stop, Terminal& terminal) {
+/// Writes tables and figures of the recording next to it.
+Files draw(const FlightOptions& options, const fs::path& path, const std::atomic<bool>& stop,
+           Terminal& terminal) {
     if (!options.figures() && !options.csv) {
         return {};
     }
     const record::Recording recording = record::read_recording(path);
-    std::vector<fs::path> files;
+    Files files;
     if (options.csv) {
         files = write_csv(recording, path.parent_path() / "csv");
     }
     if (options.figures()) {
         terminal.progress("drawing figures ...");
         try {
-            const auto figures = drawn_where_possible(
-                [&] { return report::plot(recording, path.parent_path(), {.stop = &stop}).files; });
-            files.insert(files.end(), figures.begin(), figures.end());
+            files = with_drawn(files, [&] {
+                return report::plot(recording, path.parent_path(), {.stop = &stop}).files;
+            });
         } catch (const std::exception&) {
             if (!stop) {
                 throw;
-            }  // Ctrl-C ends gnuplot as well: what there is of the flight is told all the same
+            }  // Ctrl-C ends gnuplot as well: the flight is reported all the same
         }
     }
     return files;
@@ -52,7 +52,7 @@ Terminal::Voice FlightOptions::voice() const {
 }
 
 fs::path FlightOptions::folder(const std::string& name) const {
-    return out.empty() ? fs::path("out") / name : fs::path(out);
+    return out_folder(out, name);
 }
 
 std::optional<Outcome> expected_outcome(const std::string& name) {
@@ -92,7 +92,7 @@ simulation::FlightWatch watch(Terminal& terminal) {
                 }};
 }
 
-void tell(const simulation::FlightResult& result, Terminal& terminal) {
+void report(const simulation::FlightResult& result, Terminal& terminal) {
     terminal.line("");
     for (const std::string& line : flight_summary(
              result, [&terminal](const std::string& text) { return terminal.bold(text); })) {
@@ -103,12 +103,12 @@ void tell(const simulation::FlightResult& result, Terminal& terminal) {
 ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& result,
                   const std::atomic<bool>& stop, const std::string& about, const std::string& text,
                   Px4Link* px4, Terminal& terminal) {
-    tell(result, terminal);
+    report(result, terminal);
     if (!text.empty()) {
         terminal.line(about, text);
     }
     if (px4 != nullptr) {
-        px4->tell(result.performance, terminal);
+        px4->report(result.performance, terminal);
     }
     if (!result.recording.empty()) {
         report::remove_figures(result.recording.parent_path());
@@ -120,7 +120,8 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
             add(draw(options, result.recording, stop, terminal));
         }
         if (px4 != nullptr) {
-            add(px4->write(result.performance, result.recording.parent_path(), options.figures()));
+            add(px4->write(result.performance, result.recording.parent_path(), options.figures(),
+                           terminal));
         }
         terminal.written(files);
         terminal.line("layouts", (scenario::data_root() / "layouts/foxglove.json").string() +

@@ -35,22 +35,22 @@ struct FlightOptions {
 /// The outcome of an option --expect; nothing when it is not given.
 /// @throws InputError naming all there are
 [[nodiscard]] std::optional<Outcome> expected_outcome(const std::string& name);
-/// Says when another outcome was expected.
+/// Reports an outcome that is not the expected one.
 /// @param what  has ended: "flight"
 [[nodiscard]] ExitCode judged(std::optional<Outcome> expected, const char* what, Outcome outcome,
                               const std::string& reason);
 
 /// What is to be flown, for people.
 void introduce(const scenario::Scenario& scenario, Terminal& terminal);
-/// Tells events as they come, and where the flight is.
+/// Prints events as they come, and the flight's state.
 [[nodiscard]] simulation::FlightWatch watch(Terminal& terminal);
 /// What a person wants to know of a flight.
-void tell(const simulation::FlightResult& result, Terminal& terminal);
+void report(const simulation::FlightResult& result, Terminal& terminal);
 
-/// Tells what came of a flight and its wires, draws it, names what was written.
+/// Reports the result of a flight and its wires, draws it, lists the files written.
 /// @throws Interrupted when `stop` is set, also while it draws
 /// @param stop         where it was set the rest is left out
-/// @param about, text  a line of the verb's own; none without a text
+/// @param about, text  a further line; none without a text
 /// @param px4          null: none was there
 [[nodiscard]] ExitCode conclude(const FlightOptions& options,
                                 const simulation::FlightResult& result,

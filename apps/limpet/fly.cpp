@@ -46,7 +46,7 @@ OptionList options_of(FlyOptions& options) {
            "ground station or live)"},
           {"--json", &options.json,
            "one JSON object on standard output, all else on standard error;\nno figures"},
-          {"--quiet", &options.quiet, "say nothing but errors; no figures"},
+          {"--quiet", &options.quiet, "print nothing but errors; no figures"},
           {"--csv", &options.csv, "write the recording as CSV as well"},
           {"--no-record", &options.no_record, "write nothing"},
           {"--no-figures", &options.no_figures, "write the recording only"}}});
@@ -76,7 +76,7 @@ scenario::Scenario load(const FlyOptions& options, const Given& given) {
     return scenario::load_scenario(options.scenario, {.overrides = overrides});
 }
 
-/// Who looks on at a flight, or works in it.
+/// Connections of a flight: viewers, a PX4, a ground station.
 struct Company {
     std::optional<live::LiveFlight> live;
     std::optional<Px4Link> px4;
@@ -90,7 +90,7 @@ void open_live(const FlyOptions& options, const simulation::FlightModel& model,
         company.live.emplace(
             live::LiveFlightOptions{port_of(options.live), options.live.wait, tunes},
             *model.scenario, stop);
-        tell_address(company.live->live(), terminal);
+        print_address(company.live->live(), terminal);
     }
 }
 
@@ -153,7 +153,7 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     }
     introduce(scenario, terminal);
     simulation::FlightConduct conduct{
-        .speed = speed, .stop = stop, .beside = company.live ? &company.live->live() : nullptr};
+        .speed = speed, .stop = stop, .mirror = company.live ? &company.live->live() : nullptr};
     open_px4(options, *model, recording.parent_path(), terminal, company, conduct);
     if (options.ground.wanted) {
         company.ground.emplace(options.ground, *model, terminal);

@@ -32,7 +32,7 @@ public:
 
     /// After every tick of the flight.
     void tick(simulation::Flight& flight, const guidance::EventList& events);
-    /// Tells how it ended.
+    /// Sends how it ended.
     void end(const simulation::FlightResult& result);
     /// @return one line: what went, what came, what was refused
     [[nodiscard]] std::string report() const;

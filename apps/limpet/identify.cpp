@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/identification/identification.hpp"
 #include "limpet/identification/pressure_log.hpp"
 #include "limpet/scenario/catalogue.hpp"
-#include "limpet/scenario/samples.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -244,7 +243,8 @@ void identify(IdentifyOptions options) {
     go_on("nothing");
     const std::optional<scenario::Surface> surface = nearest_surface(fit);
     const std::vector<Row> rows = rows_of(fit);
-    const bool draws = !options.json || !options.out.empty();  // a program gets what it asks for
+    const bool draws =
+        !options.json || !options.out.empty();  // for a program: figures only on request
     const fs::path folder = options.out.empty() ? "out/identify" : options.out;
     if (draws) {
         (void)make_folder(folder);
@@ -257,7 +257,7 @@ void identify(IdentifyOptions options) {
     if (!draws) {
         return;
     }
-    const std::vector<fs::path> files = drawn_where_possible([&] {
+    const std::vector<fs::path> files = with_drawn({}, [&] {
         return draw_chart(chart_of(trace, fit, log.filename().string()), "identify", folder).files;
     });
     if (!options.json) {

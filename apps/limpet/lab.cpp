@@ -23,14 +23,14 @@ struct LabOptions {
 };
 
 OptionList options_of(LabOptions& options) {
-    return {
-        {"scenario SCENARIO", &options.scenario, "a name in scenarios/ to begin with", optional()},
-        {"--port PORT", &options.port, "to listen on (0: any that is free)", range(0, 65535)},
-        {"--listen ADDRESS", &options.listen,
-         "whom to listen to: an address of this machine (default: itself alone)"},
-        {"--out DIR", &options.out,
-         "keep results of campaigns there (default: they go with the lab)"},
-        {"--open", &options.open, "open the page in a browser"}};
+    return {{"scenario SCENARIO", &options.scenario, "name (limpet list scenarios) to begin with",
+             optional()},
+            {"--port PORT", &options.port, "to listen on (0: any that is free)", range(0, 65535)},
+            {"--listen ADDRESS", &options.listen,
+             "address of this machine to listen on (default: this machine alone)"},
+            {"--out DIR", &options.out,
+             "keep results of campaigns there (default: they go with the lab)"},
+            {"--open", &options.open, "open the page in a browser"}};
 }
 
 ExitCode run_lab(const LabOptions& options) {
@@ -65,7 +65,7 @@ Verb lab_verb() {
                             "What was changed is in\n"
                             "the page's address, and can be saved as YAML or as a command. Many: a "
                             "campaign, each of its\nflights a point to look at. Learn: what a "
-                            "number hangs on. Live: a flight in "
+                            "number depends on. Live: a flight in "
                             "progress.\n");
 }
 

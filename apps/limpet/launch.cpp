@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* kModule = "limpet_mpi.so";
 
-/// What each launcher tells its processes of their number. Open MPI's first: its mpirun may itself
-/// have been started by one of the others, which then speak of its helpers.
+/// The variable in which each launcher passes the number of processes. Open MPI's first: its mpirun
+/// may itself run under one of the others, which then count mpirun's daemons.
 constexpr std::pair<const char*, const char*> kLaunchers[] = {
     {"OMPI_COMM_WORLD_SIZE", "mpirun"},
     {"PMI_SIZE", "mpiexec"},
@@ -30,8 +30,8 @@ struct Launch {
 
 Launch launch() {
     for (const auto& [variable, by] : kLaunchers) {
-        if (const char* told = std::getenv(variable)) {
-            return {.ranks = std::atoi(told), .by = by};
+        if (const char* count = std::getenv(variable)) {
+            return {.ranks = std::atoi(count), .by = by};
         }
     }
     return {};
@@ -61,14 +61,14 @@ ranks::RankLink* ranks_started() {
     if (link->ranks() < 2) {
         link->leave();
         throw InputError(fmt::format(
-            "{} started {} of these, but Open MPI knows of one: use its own mpirun, srun "
+            "{} started {} of these, but Open MPI knows of one: use Open MPI's mpirun, srun "
             "--mpi=pmix, or fly a --shard each",
             started.by, started.ranks));
     }
     return link.get();
 }
 
-bool sent_home(const std::string& why) {
+bool left_to_rank_0(const std::string& why) {
     ranks::RankLink* link = ranks_started();
     if (link == nullptr) {
         return false;

@@ -7,15 +7,15 @@
 
 namespace limpet::app {
 
-/// What ties this process to those that mpirun or srun has started with it; null: it was started
-/// alone. MPI is loaded only where there are several. To be asked once. It lasts until the process
-/// ends: who breaks off without leaving it has said why before it takes the others along.
-/// @throws InputError when there are several that nothing ties together: each would do all the work
+/// The link to the other processes that mpirun or srun has started; null: there are none. MPI is
+/// loaded only where there are several. It lasts until the process ends; a process that ends
+/// without leaving it ends the others too, and has reported its reason by then.
+/// @throws InputError when there are several without MPI: each would do all the work
 [[nodiscard]] ranks::RankLink* ranks_started();
 
-/// For what flies in one process alone: where there are several, they part.
-/// @return whether this one has nothing to say
+/// For work that one process does alone: several part.
+/// @return whether this is one of several, but not the first
 /// @throws InputError `why`, in the first of several
-[[nodiscard]] bool sent_home(const std::string& why);
+[[nodiscard]] bool left_to_rank_0(const std::string& why);
 
 }  // namespace limpet::app

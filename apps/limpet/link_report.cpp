@@ -5,7 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "limpet/core/read_file.hpp"
 #include "limpet/draw/chart.hpp"
+#include "limpet/px4/console.hpp"
 #include "output.hpp"
 #include "px4_link.hpp"
 
@@ -13,6 +15,8 @@ namespace limpet::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr FileBound kConsole{"PX4's console", 256};
 
 std::string milliseconds(double duration_s) {
     return fmt::format("{:.3g} ms", 1e3 * duration_s);
@@ -78,19 +82,18 @@ draw::ChartPanel panel_of(const std::string& title, const std::string& what,
     return panel;
 }
 
-std::vector<std::filesystem::path> draw(const mavlink::HilCount& hil,
-                                        const std::filesystem::path& folder) {
+Files draw(const mavlink::HilCount& hil, const std::filesystem::path& folder) {
     draw::Chart chart{.title = "What the link cost", .subtitle = "in wall time; logarithmic axis"};
     chart.panels.push_back(panel_of("From HIL_SENSOR to its answer", "round trip", hil.round_trip));
     if (hil.send_jitter.count() > 0) {
-        chart.panels.push_back(panel_of("HIL_SENSOR beside its time", "jitter", hil.send_jitter));
+        chart.panels.push_back(panel_of("HIL_SENSOR off its time", "jitter", hil.send_jitter));
     }
-    return drawn_where_possible([&] { return draw_chart(chart, "link", folder).files; });
+    return draw_chart(chart, "link", folder).files;
 }
 
 }  // namespace
 
-void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& terminal) const {
+void Px4Link::report(const simulation::FlightPerformance& performance, Terminal& terminal) const {
     const mavlink::HilCount& hil = wires_->autopilot().count();
     terminal.line("sensors", fmt::format("{} sent, {} answered, {} missed", hil.sensors_sent,
                                          hil.answers, hil.unanswered));
@@ -110,15 +113,15 @@ void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& t
     }
     if (const auto own_share = performance.own_share()) {
         terminal.line("share",
-                      fmt::format("{:.1f} % of the wall time was the simulator's own, the rest was "
+                      fmt::format("{:.1f} % of the wall time was the simulator's, the rest was "
                                   "the autopilot's",
                                   100.0 * *own_share));
     }
 }
 
 std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerformance& performance,
-                                                  const std::filesystem::path& folder,
-                                                  bool figures) {
+                                                  const std::filesystem::path& folder, bool figures,
+                                                  Terminal& terminal) {
     const mavlink::HilCount& hil = wires_->autopilot().count();
     Json json = Json::object();
     for (const auto& [name, link] : links()) {
@@ -137,9 +140,19 @@ std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerfor
     }
     std::vector<std::filesystem::path> files = {folder / "link.json"};
     write_file(files.front(), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    const auto logs = keep_logs(folder);
+    files.insert(files.end(), logs.begin(), logs.end());
+    if (!logs.empty()) {
+        const px4::Px4Console console = px4::read_px4_console(read_file(logs.front(), kConsole));
+        if (const std::string text = console_text(console); !text.empty()) {
+            terminal.line("px4.log", text);
+        }
+        for (const std::string& line : console.lines) {
+            terminal.line("", line);
+        }
+    }
     if (figures) {
-        const auto drawn = draw(hil, folder);
-        files.insert(files.end(), drawn.begin(), drawn.end());
+        files = with_drawn(std::move(files), [&] { return draw(hil, folder); });
     }
     if (wire_log_) {
         wire_finished_ = true;

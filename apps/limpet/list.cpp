@@ -8,7 +8,6 @@
 #include "command_line.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/fault_table.hpp"
-#include "limpet/scenario/samples.hpp"
 #include "limpet/scenario/sections.hpp"
 
 namespace limpet::app {

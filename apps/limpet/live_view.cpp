@@ -33,7 +33,7 @@ OptionList options_of(LiveViewOptions& options, bool waits) {
     return all;
 }
 
-void tell_address(const live::Live& live, Terminal& terminal) {
+void print_address(const live::Live& live, Terminal& terminal) {
     terminal.line("live",
                   live.address() + "  (limpet lab: Live; Foxglove: Open connection, WebSocket)");
 }
@@ -45,7 +45,7 @@ std::unique_ptr<live::Live> open_live(const LiveViewOptions& options, live::Live
     }
     about.server = live::server_for_viewers(port_of(options));
     auto opened = std::make_unique<live::Live>(std::move(about));
-    tell_address(*opened, terminal);
+    print_address(*opened, terminal);
     return opened;
 }
 

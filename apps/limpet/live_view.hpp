@@ -19,11 +19,11 @@ struct LiveViewOptions {
 /// @param waits  --live-wait is there too
 [[nodiscard]] OptionList options_of(LiveViewOptions& options, bool waits);
 
-/// The port that was asked for.
+/// The port of --live.
 /// @throws InputError if it is none
 [[nodiscard]] std::uint16_t port_of(const LiveViewOptions& options);
 /// Where to watch.
-void tell_address(const live::Live& live, Terminal& terminal);
+void print_address(const live::Live& live, Terminal& terminal);
 
 /// Serves a recording as it grows.
 /// @return null where none is wanted

@@ -56,7 +56,7 @@ void fill_closed_streams() {
     }
 }
 
-/// Asks for no memory.
+/// Allocates nothing.
 ExitCode out_of_memory() noexcept {
     constexpr std::string_view kLine =
         "limpet: out of memory, or of threads: fewer jobs (--jobs), a smaller file, or a larger "
@@ -70,7 +70,7 @@ bool is_shortage(const std::error_code& code) {
            code == std::errc::not_enough_memory;
 }
 
-/// What has no memory left may come to an end where nothing can be caught.
+/// Without memory the program may end where nothing can be caught.
 [[noreturn]] void end_in_a_line() noexcept {
     try {
         if (const std::exception_ptr thrown = std::current_exception()) {
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
         return fail(ExitCode::interrupted, error.what());
     } catch (const limpet::InputError& error) {
         return fail(ExitCode::bad_input, error.what());
-    } catch (const std::filesystem::filesystem_error& error) {  // a link to itself, no room
+    } catch (const std::filesystem::filesystem_error& error) {  // a link to itself, a full disk
         return fail(ExitCode::bad_input, error.path1().string() + ": " + error.code().message());
     } catch (const std::bad_alloc&) {
         return static_cast<int>(out_of_memory());

@@ -76,7 +76,7 @@ std::string synopsis(const ProgramText& program, const VerbText& verb) {
     return text;
 }
 
-/// What `limpet list` tells that may stand for a value, as words; empty: none.
+/// Lists of `limpet list` whose names may stand for a value; empty: none.
 std::string listed(std::string_view value) {
     constexpr std::pair<std::string_view, const char*> kLists[] = {
         {"SCENARIO", "scenarios"},
@@ -129,7 +129,7 @@ std::string bash_verb(const VerbText& verb) {
         verb.name, values, words, place);
 }
 
-/// In single quotes, for zsh's _arguments: without brackets and colons of its own.
+/// In single quotes, for zsh's _arguments: with brackets and colons escaped.
 std::string zsh_text(std::string text) {
     for (std::size_t at = 0; at < text.size(); ++at) {
         if (text[at] == '\'') {
@@ -211,11 +211,11 @@ std::string bash_completion(const ProgramText& program) {
         cases += bash_verb(verb);
     }
     return with(
-        R"sh(# bash completion for limpet, made of its own definitions (limpet help --completion bash)
+        R"sh(# bash completion for limpet, made by limpet help --completion bash
 _limpet_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$word"); }
 _limpet_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- "$word"); }
 _limpet_folders() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -d -- "$word"); }
-_limpet_listed() { # names that `limpet list` tells, and files; a key is followed by its value
+_limpet_listed() { # names of `limpet list`, and files; a key is followed by its value
     local names list
     for list in "$@"; do names+=" $("${COMP_WORDS[0]}" list "$list" 2>/dev/null | cut -d ' ' -f 1)"; done
     if [[ $1 == keys ]]; then
@@ -248,8 +248,8 @@ std::string zsh_completion(const ProgramText& program) {
         cases += zsh_verb(verb);
     }
     return with(R"sh(#compdef limpet
-# zsh completion for limpet, made of its own definitions (limpet help --completion zsh)
-_limpet_listed() { # names that `limpet list` tells, and files; a key is followed by its value
+# zsh completion for limpet, made by limpet help --completion zsh
+_limpet_listed() { # names of `limpet list`, and files; a key is followed by its value
     local -a names
     local list
     for list in $@; do names+=(${(f)"$(limpet list $list 2>/dev/null | cut -d ' ' -f 1)"}); done

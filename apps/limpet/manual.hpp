@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-/// The command line as texts for the system that it is installed in, out of its own definitions:
-/// manual page, completion in bash and zsh.
+/// The command line as texts for the system that it is installed in, from the definitions of its
+/// verbs: manual page, completion in bash and zsh.
 namespace limpet::app {
 
 struct OptionText {
-    std::vector<std::string> names = {};  ///< "--jobs", "-j"; of what is told by its place none
+    std::vector<std::string> names = {};  ///< "--jobs", "-j"; none of a positional argument
     std::string value = {};               ///< "DIR"; empty: a flag
     std::string about = {};
     std::vector<std::string> choices = {};  ///< of the value; empty: it is free

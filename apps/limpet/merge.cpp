@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/merge.hpp"
-
 #include <fmt/core.h>
 
 #include <string>
 
 #include "command_line.hpp"
+#include "limpet/campaign/results.hpp"
 #include "output.hpp"
 
 namespace limpet::app {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "limpet/campaign/results.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
 #include "limpet/core/spawn.hpp"
@@ -32,9 +33,13 @@ fs::path make_folder(const fs::path& folder) {
     return folder;
 }
 
-fs::path folder_or_beside(const std::string& out, const fs::path& file) {
-    const fs::path beside = file.has_parent_path() ? file.parent_path() : ".";
-    return out.empty() ? beside : make_folder(out);
+fs::path out_folder(const std::string& out, const std::string& name) {
+    return out.empty() ? fs::path("out") / name : fs::path(out);
+}
+
+fs::path folder_or_next_to(const std::string& out, const fs::path& file) {
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    return out.empty() ? folder : make_folder(out);
 }
 
 OutFolder::OutFolder(const fs::path& folder) : path_(folder) {
@@ -54,16 +59,28 @@ OutFolder::~OutFolder() {
     }
 }
 
-std::vector<fs::path> drawn_where_possible(const std::function<std::vector<fs::path>()>& draw) {
+Files with_drawn(Files files, const std::function<Files()>& draw) {
     try {
-        return draw();
+        const Files figures = draw();
+        files.insert(files.end(), figures.begin(), figures.end());
     } catch (const NotInstalled& problem) {
         complain(std::string("no figures: ") + problem.what());
-        return {};
     }
+    return files;
 }
 
-void print_files(const std::vector<fs::path>& files) {
+ExitCode code_of_faults(const std::map<std::string, std::uint32_t>& outcomes,
+                        const std::string& file) {
+    const auto faults = outcomes.find(campaign::kFault);
+    if (faults == outcomes.end()) {
+        return ExitCode::ok;
+    }
+    complain(fmt::format("{} runs broke off by a fault of ours: limpet summary {}", faults->second,
+                         file));
+    return ExitCode::our_fault;
+}
+
+void print_files(const Files& files) {
     for (const fs::path& file : files) {
         fmt::print("{}\n", file.string());
     }
@@ -73,6 +90,13 @@ void write_file(const fs::path& path, const std::string& text) {
     if (!limpet::write_file(path, text)) {
         throw InputError("--out " + path.string() + ": cannot be written");
     }
+}
+
+bool is_recording_name(const std::filesystem::path& file) {
+    const std::string ending = file.extension().string();
+    const bool more =
+        ending == ".part" || ending == ".zstd" || ending == ".zst" || ending == ".lz4";
+    return ending == ".mcap" || (more && file.stem().extension() == ".mcap");
 }
 
 void open_in_browser(const std::string& page) {

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kPseudoTerminal = "pty:";
 constexpr std::uint64_t kClock_Hz = 1000000;  // of NatNet's ticks: RemoteGuidance's microseconds
 
-/// A serial device, real or made for the occasion; null: none is asked for.
+/// A serial device or a pseudo-terminal; null: none is named.
 std::unique_ptr<wire::Transport> open_device(const std::string& option, const std::string& text) {
     if (text.empty()) {
         return nullptr;

@@ -24,8 +24,8 @@ struct OutsideWireOptions {
     int system = 1;
 };
 [[nodiscard]] OptionList options_of(OutsideWireOptions& options);
-/// Fills in what the companion's file says, the other way round: where it opens a serial port there
-/// a pseudo-terminal of that name is made, where it listens this end speaks.
+/// Fills in the wires of the companion's file, the other way round: where it opens a serial port
+/// there a pseudo-terminal of that name is made, where it listens this end speaks.
 /// @throws InputError as load_companion
 [[nodiscard]] OutsideWireOptions resolved(OutsideWireOptions options);
 
@@ -34,7 +34,7 @@ struct OutsideWireOptions {
 [[nodiscard]] surroundings::OutsideWires open_wires(const OutsideWireOptions& options);
 [[nodiscard]] surroundings::OutsideOptions outside_options(const OutsideWireOptions& options,
                                                            const scenario::Scenario& scenario);
-/// Whether something on them keeps its own time.
+/// Whether one of them is serial: devices on it run in real time.
 [[nodiscard]] bool has_serial(const OutsideWireOptions& options);
 
 }  // namespace limpet::app

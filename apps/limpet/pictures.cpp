@@ -14,7 +14,7 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
-#include "limpet/ulog/ulog_writer.hpp"
+#include "limpet/ulog/ulog.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -30,14 +30,14 @@ struct PictureOptions {
 using Draw = std::function<draw::Pictures(const record::Recording&,
                                           const std::filesystem::path& folder, const Work& work)>;
 
-/// Reads, says what is missing, draws what is there, prints what was written.
+/// Reads a recording, draws what is whole, prints the files written, reports what is missing.
 void draw(const PictureOptions& options, const Draw& draw_it) {
     Terminal terminal(Terminal::Voice::machine);  // standard output lists the files
     const Work work{.tell = [&terminal](const std::string& what) { terminal.slow_progress(what); },
                     .stop = stop_on_signals()};
     const record::Recording recording = record::read_recording(options.recording);
     work.say();
-    const std::filesystem::path folder = folder_or_beside(options.out, options.recording);
+    const std::filesystem::path folder = folder_or_next_to(options.out, options.recording);
     const std::string damage =
         recording.damage.empty() ? "" : options.recording + ": " + recording.damage;
     draw::Pictures pictures;
@@ -89,7 +89,7 @@ draw::Pictures write_tables(const record::Recording& recording, const std::files
     return {.files = draw::publish(files, folder / "csv"), .missing = std::move(remarks)};
 }
 
-/// Beside the recording, or in a folder, under its name.
+/// Next to the recording, or in a folder, under its name.
 draw::Pictures write_px4_log(const record::Recording& recording,
                              const std::filesystem::path& folder, const Work&) {
     const std::filesystem::path file = folder / (recording.path.stem().string() + ".ulg");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "px4_link.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <utility>
 
@@ -26,7 +26,9 @@ px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Sc
 }
 
 /// How to start what is waited for, to be copied.
-void say_how(const Px4LinkOptions& options, const std::string& scenario, Terminal& terminal) {
+void print_start_commands(const Px4LinkOptions& options, const scenario::Scenario& flown,
+                          Terminal& terminal) {
+    const std::string& scenario = flown.name;
     if (options.serial()) {
         terminal.line("a board: with the parameters of `limpet px4-params " + scenario +
                       " --target hitl`");
@@ -39,7 +41,8 @@ void say_how(const Px4LinkOptions& options, const std::string& scenario, Termina
                             ? std::nullopt
                             : std::optional(std::to_string(options.instance.number));
     terminal.line(
-        "PX4, in its tree:      PX4_SYS_AUTOSTART=22001 build/px4_sitl_default/bin/px4 -d" +
+        fmt::format("PX4, in its tree:      PX4_SYS_AUTOSTART={} build/px4_sitl_default/bin/px4 -d",
+                    px4::px4_airframe_id(flown.airframe.name)) +
         if_given("-i", number));
     terminal.line("                       (its airframe: limpet px4-params " + scenario +
                   "; docs/px4.md)");
@@ -104,7 +107,7 @@ void check(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
     const double speed = speed_of(options.speed, 1.0);
     if (options.serial() && speed != 1.0) {
         throw InputError("--speed " + options.speed +
-                         ": a board on a serial wire has its own clock; there is 1 alone");
+                         ": a board on a serial wire runs in real time; only 1 is possible");
     }
     if (options.start && options.serial()) {
         throw InputError("--px4: a board on a serial wire runs by itself");
@@ -117,7 +120,7 @@ void check(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
 Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& model, bool flies,
                  const std::filesystem::path& folder, Terminal& terminal,
                  const std::atomic<bool>* stop)
-    : speed_(speed_of(options.speed, options.serial() ? 1.0 : 0.0)) {
+    : folder_(folder), speed_(speed_of(options.speed, options.serial() ? 1.0 : 0.0)) {
     if (options.start) {
         process_.emplace(*options.start, simulation::px4_airframe(*model.scenario),
                          options.instance);
@@ -131,8 +134,12 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
                 terminal.line("waiting for PX4 on " + where);
                 if (process_) {
                     terminal.line("started " + process_->command());
+                    if (!process_->left_out().empty()) {
+                        terminal.line("note", fmt::format("this PX4 has no {}: left out",
+                                                          fmt::join(process_->left_out(), ", ")));
+                    }
                 } else {
-                    say_how(options, model.scenario->name, terminal);
+                    print_start_commands(options, *model.scenario, terminal);
                 }
             },
         .on_wait =
@@ -156,16 +163,30 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
     } catch (...) {
         std::error_code ignored;  // a wire on which nothing went is no log
         std::filesystem::remove(folder / "wire.mcap.part", ignored);
+        (void)keep_logs(folder_);
         throw;
     }
 }
 
+std::vector<std::filesystem::path> Px4Link::keep_logs(const std::filesystem::path& folder) {
+    if (!process_ || folder.empty() || std::exchange(kept_, true)) {
+        return {};
+    }
+    try {
+        return process_->keep(folder);
+    } catch (const InputError& error) {  // a full disk: the flight itself is reported all the same
+        complain(error.what());
+        return {};
+    }
+}
+
 Px4Link::~Px4Link() {
+    (void)keep_logs(folder_);
     if (wire_log_ && wires_ && !wire_finished_) {
         try {
             wire_log_->finish();  // what led to no flight is what one wants to see
         } catch (const InputError&) {
-            return;  // a full disk: the error that is on its way tells more
+            return;  // a full disk: the first error is the one to report
         }
     }
 }

@@ -20,7 +20,7 @@ namespace limpet::app {
 /// Options of the verbs that fly a PX4.
 struct Px4LinkOptions {
     px4::Px4Instance instance;
-    std::optional<std::string> start;     ///< of Px4Process; none: somebody else starts it
+    std::optional<std::string> start;     ///< of Px4Process; none: it is started elsewhere
     std::optional<std::string> hil;       ///< none: the instance's
     std::optional<std::string> offboard;  ///< likewise
     double wait_s = 60.0;
@@ -32,7 +32,7 @@ struct Px4LinkOptions {
     [[nodiscard]] bool serial() const { return hil && hil->starts_with("serial:"); }
 };
 /// Before any work, and whether or not a wire is there.
-/// @throws InputError naming the option that cannot be, alone or beside the others
+/// @throws InputError naming the option that cannot be, alone or with the others
 void check(const Px4LinkOptions& options, const scenario::Scenario& scenario);
 /// @param flies  guidance is ours; false: a companion's
 [[nodiscard]] OptionList options_of(Px4LinkOptions& options, bool flies);
@@ -47,17 +47,17 @@ void check(const Px4LinkOptions& options, const scenario::Scenario& scenario);
 /// A PX4 on its wires.
 class Px4Link {
 public:
-    /// Opens the wires and waits for a PX4 on them; says what it waits for and how to start it.
+    /// Opens the wires and waits for a PX4 on them; prints what it waits for and how to start it.
     /// @param options  checked
     /// @param flies  guidance is ours; false: a companion's
     /// @param folder  where options.record_wire writes wire.mcap
-    /// @throws InputError when a wire cannot be opened or nobody comes in time; nothing is then
-    ///         left in the folder
+    /// @throws InputError when a wire cannot be opened or no PX4 comes in time; nothing is then
+    ///         left in the folder but the console of a PX4 that was started
     /// @throws Interrupted on `stop`
     Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& model, bool flies,
             const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
 
-    /// Closes wire.mcap, when no flight came of it.
+    /// Closes wire.mcap, and keeps the logs of a PX4 that was started, when no flight came of it.
     ~Px4Link();
     Px4Link(const Px4Link&) = delete;
     Px4Link& operator=(const Px4Link&) = delete;
@@ -66,24 +66,31 @@ public:
     [[nodiscard]] double speed() const { return speed_; }
 
     /// After the flight, for people: messages, misses, latency; whose time it was.
-    void tell(const simulation::FlightPerformance& performance, Terminal& terminal) const;
-    /// The same for programs, with the histograms: link.json; beside the recording, because that
-    /// one must not depend on wall time. Closes wire.mcap.
+    void report(const simulation::FlightPerformance& performance, Terminal& terminal) const;
+    /// The same for programs, with the histograms: link.json; next to the recording, which
+    /// must not depend on wall time. Closes wire.mcap.
+    /// With it the logs of a PX4 that was started, which ends here: px4.log, px4.ulg; the errors,
+    /// warnings and failsafes of its console are printed.
     /// @param figures  draws the histograms too, as link.png and link.svg
     /// @return what was written
     /// @throws InputError when it cannot
     [[nodiscard]] std::vector<std::filesystem::path> write(
         const simulation::FlightPerformance& performance, const std::filesystem::path& folder,
-        bool figures);
+        bool figures, Terminal& terminal);
 
 private:
     /// Those that there are, named.
     [[nodiscard]] std::vector<std::pair<const char*, const mavlink::Link*>> links() const;
 
+    /// @return what was kept next to the recording; nothing of a PX4 that others have started
+    std::vector<std::filesystem::path> keep_logs(const std::filesystem::path& folder);
+
     std::optional<px4::Px4Process> process_;
+    std::filesystem::path folder_;  ///< next to the recording; empty: there is none
+    bool kept_ = false;
     std::unique_ptr<simulation::WireLog> wire_log_;
     std::optional<px4::Px4Wires> wires_;
-    double speed_ = 0.0;  ///< times real time; 0: not held back, then waiting says something
+    double speed_ = 0.0;  ///< times real time; 0: as fast as possible
     bool wire_finished_ = false;
 };
 

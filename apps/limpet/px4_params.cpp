@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/core/file_kind.hpp"
+#include "limpet/core/errors.hpp"
 #include "limpet/px4/airframe.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -23,26 +24,25 @@ struct Px4Options {
     std::string wanted;
     std::vector<std::string> overrides;
     std::string out = "out/px4";
-    int airframe_id = 22001;
+    std::optional<int> airframe_id;  ///< none: the vehicle's own
     px4::Px4Target target = px4::Px4Target::sitl;
     bool mocap = false;
     bool gps = false;
+    px4::Px4Version version = px4::Px4Version::released;
+    std::string build;
 };
+
+const std::map<std::string, px4::Px4Version> kVersions = {{"1.15", px4::Px4Version::released},
+                                                          {"1.16", px4::Px4Version::released},
+                                                          {"main", px4::Px4Version::main}};
 
 const std::map<std::string, px4::Px4Target> kTargets = {{"sitl", px4::Px4Target::sitl},
                                                         {"hitl", px4::Px4Target::hitl},
                                                         {"flight", px4::Px4Target::flight}};
 
-bool is_vehicle(const std::string& wanted) {
-    if (scenario::is_path(wanted)) {
-        return scenario::kind_of(wanted) == scenario::FileKind::vehicle;
-    }
-    return is_there(scenario::data_root() / "vehicles" / (wanted + ".yaml"));
-}
-
 /// A vehicle is taken as a scenario that changes nothing of it.
 scenario::Scenario scenario_of(const Px4Options& options) {
-    if (!is_vehicle(options.wanted)) {
+    if (!scenario::is_vehicle(options.wanted, scenario::data_root())) {
         return scenario::load_scenario(options.wanted, {.overrides = options.overrides});
     }
     const std::string vehicle = scenario::is_path(options.wanted)
@@ -55,6 +55,7 @@ scenario::Scenario scenario_of(const Px4Options& options) {
 px4::Px4Airframe airframe_of(const Px4Options& options) {
     px4::Px4Airframe airframe = simulation::px4_airframe(scenario_of(options), options.airframe_id);
     airframe.target = options.target;
+    airframe.version = options.version;
     if (options.gps || options.mocap) {
         airframe.pose = options.gps ? px4::Px4Pose::gps : px4::Px4Pose::motion_capture;
     }
@@ -68,7 +69,7 @@ void how_to_go_on(const px4::Px4Airframe& airframe) {
         fmt::print(
             "\nOn a PX4 v1.15 or v1.16 that is built, by itself:\n"
             "  limpet fly SCENARIO --autopilot px4 --px4 build/px4_sitl_default\n"
-            "As one of PX4's own: copy {} into\n"
+            "As an airframe of PX4: copy {} into\n"
             "  {}/\nand add it to the CMakeLists.txt there, then\n"
             "  make px4_sitl_default\n"
             "  PX4_SYS_AUTOSTART={} build/px4_sitl_default/bin/px4 -d\n"
@@ -83,9 +84,24 @@ void how_to_go_on(const px4::Px4Airframe& airframe) {
         folder);
 }
 
+/// @throws InputError when the build has no list of its parameters
+px4::Px4Fitted settings_of(const px4::Px4Airframe& airframe, const std::string& build) {
+    const auto settings = px4_settings(airframe);
+    if (build.empty()) {
+        return {.settings = settings, .left_out = {}};
+    }
+    const auto known = px4::px4_facts_of(build);
+    if (!known) {
+        throw InputError("--px4 " + build +
+                         ": no list of a PX4's parameters is there (parameters.json)");
+    }
+    return fitted(settings, *known);
+}
+
 void write_both(const Px4Options& options) {
     const px4::Px4Airframe airframe = airframe_of(options);
-    const auto settings = px4_settings(airframe);
+    const px4::Px4Fitted fit = settings_of(airframe, options.build);
+    const auto& settings = fit.settings;
     const fs::path folder = make_folder(options.out);
     const fs::path params = folder / (airframe.name + ".params");
     const fs::path script = folder / px4_airframe_file_name(airframe);
@@ -95,6 +111,10 @@ void write_both(const Px4Options& options) {
         "written    {}, {} parameters, each with its reason\n"
         "           {}, the same as PX4 starts it\n",
         params.string(), settings.size(), script.string());
+    if (!fit.left_out.empty()) {
+        fmt::print("left out   {}: that PX4 has no such parameters\n",
+                   fmt::join(fit.left_out, ", "));
+    }
     if (airframe.target == px4::Px4Target::sitl) {
         const fs::path target = folder / px4::kPx4MakeTarget;
         write_file(target, px4_make_target(airframe));
@@ -110,12 +130,21 @@ OptionList options_of(Px4Options& options) {
             overrides_option(options.overrides, "turn one number, as in limpet fly (repeatable)"),
             {"--out DIR", &options.out, "folder for both files (default out/px4)"},
             {"--airframe-id N", &options.airframe_id,
-             "PX4's number of this airframe, 22000 .. 22999 (default 22001)"},
+             "PX4's number of this airframe, 22000 .. 22999 (default: the vehicle's\nown, 22001 "
+             "for perching_uav)"},
             {"--target TARGET",
              [&options](const std::string& text) { options.target = kTargets.at(text); },
              "sitl: PX4 on this machine (default); hitl: a board that is fed by the\n"
              "simulator; flight: the vehicle itself, with its companion on TELEM 2",
              one_of({"sitl", "hitl", "flight"}, false)},
+            {"--px4-version VERSION",
+             [&options](const std::string& text) { options.version = kVersions.at(text); },
+             "of the PX4: 1.15 (default), 1.16 or main (of May 2026 or later, 1.18), which has\n"
+             "some parameters no more",
+             one_of({"1.15", "1.16", "main"}, false)},
+            {"--px4 BUILD", &options.build,
+             "a PX4 that was built: its folder; what it has no parameter for is left out",
+             not_with("--px4-version")},
             {"--mocap", &options.mocap,
              "position by motion capture (default unless the\nscenario's EKF2_EV_CTRL is 0)"},
             {"--gps", &options.gps, "position by GPS and compass", not_with("--mocap")}};

@@ -3,20 +3,14 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
-
 #include "limpet/campaign/summary.hpp"
 #include "limpet/core/user_text.hpp"
-#include "limpet/rare/rare_campaign.hpp"
-#include "limpet/rare/rare_summary.hpp"
+#include "limpet/rare/rare.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
 namespace {
 
-using RareClock = std::chrono::steady_clock;
-
-constexpr auto kRareLineEvery = std::chrono::seconds(5);  ///< where no person watches
 constexpr double kFewestLevelRuns = 100;
 constexpr double kMostLevelRuns = 100000;
 constexpr const char* kLikeliest = "likeliest.yaml";
@@ -36,14 +30,8 @@ std::string guide_text(const rare::RareGuide& guide) {
 
 rare::RareWatch rare_watch(Terminal& terminal, std::uint32_t level_runs) {
     return {.on_progress =
-                [&terminal, level_runs, next = RareClock::now() + kRareLineEvery](
-                    const rare::RareProgress& progress) mutable {
-                    if (terminal.live()) {
-                        terminal.progress(progress_text(progress, level_runs));
-                    } else if (RareClock::now() >= next) {
-                        terminal.line(progress_text(progress, level_runs));
-                        next = RareClock::now() + kRareLineEvery;
-                    }
+                [&terminal, level_runs](const rare::RareProgress& progress) {
+                    terminal.slow_progress(progress_text(progress, level_runs));
                 },
             .stop = stop_on_signals()};
 }
@@ -52,8 +40,8 @@ rare::RareWatch rare_watch(Terminal& terminal, std::uint32_t level_runs) {
 
 OptionList options_of(RareOptions& options) {
     return {{"--rare EVENT", &options.event,
-             "say how probable a rare event is, down to 1e-7: a metric and its\n"
-             "limit, as in 'cup_margin_min_N<0' or 'cup_press_max_N>60', or an\n"
+             "estimate the probability of a rare event, down to 1e-7: a metric and\n"
+             "its limit, as in 'cup_margin_min_N<0' or 'cup_press_max_N>60', or an\n"
              "outcome, as in failed_to_seal (data/campaigns/README.md)"},
             {"--falling METRIC", &options.guide.falling,
              "that falls towards the outcome (failed_to_seal: cup_press_max_N)"},
@@ -82,11 +70,11 @@ ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& result
     const rare::RareFlown flown =
         fly_rare(results, search, jobs, rare_watch(terminal, search.level_runs));
     if (flown.result.ending == rare::RareEnding::stopped) {
-        fmt::print(stderr,
-                   "limpet: stopped after {} flights, all kept; go on with: limpet campaign {} "
-                   "--rare '{}'{} --level-runs {} --out {} --resume\n",
-                   results.finished(), for_shell(file), search.event.text,
-                   guide_text(options.guide), options.level_runs, for_shell(folder.string()));
+        complain(
+            fmt::format("stopped after {} flights, all kept; go on with: limpet campaign {} "
+                        "--rare '{}'{} --level-runs {} --out {} --resume",
+                        results.finished(), for_shell(file), search.event.text,
+                        guide_text(options.guide), options.level_runs, for_shell(folder.string())));
         return ExitCode::interrupted;
     }
     const rare::RareSummary summary = summarise_rare(results, search, flown.result);
@@ -106,10 +94,8 @@ ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& result
         terminal.line("", fmt::format("limpet replay {} {}      the same; any run",
                                       for_shell(database), summary.likeliest->run));
     }
-    if (flown.faults > 0) {
-        fmt::print(stderr, "limpet: {} runs broke off by a fault of ours: limpet summary {}\n",
-                   flown.faults, database);
-        return ExitCode::our_fault;
+    if (const ExitCode code = code_of_faults(results.outcomes(), database); code != ExitCode::ok) {
+        return code;
     }
     return flown.result.ending == rare::RareEnding::estimated ? ExitCode::ok
                                                               : ExitCode::other_outcome;

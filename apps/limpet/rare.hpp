@@ -10,7 +10,7 @@
 
 namespace limpet::app {
 
-/// What `limpet campaign --rare` is asked.
+/// The search of `limpet campaign --rare`.
 struct RareOptions {
     std::string event;
     rare::RareGuide guide;
@@ -21,7 +21,7 @@ struct RareOptions {
 /// @throws InputError for options that need --rare, and for an event that is none
 void check(const Given& given, const RareOptions& options);
 
-/// Flies a search for a rare event and says what it found.
+/// Flies a search for a rare event and reports the result.
 /// @param file  the campaign as it was named
 /// @return other_outcome where it ends without an estimate
 ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& results, int jobs,

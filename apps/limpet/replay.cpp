@@ -7,7 +7,7 @@
 #include "command_line.hpp"
 #include "flight_report.hpp"
 #include "limpet/campaign/workers.hpp"
-#include "limpet/rare/rare_results.hpp"
+#include "limpet/rare/rare.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/study/study.hpp"
@@ -55,13 +55,12 @@ void replay(const ReplayOptions& options) {
     const simulation::FlightResult result =
         replay_run(results, options.run, folder / "flight.mcap", watch(terminal),
                    noise_of(results, options.run));
-    tell(result, terminal);
+    report(result, terminal);
     terminal.line("", "the same as in the row: the flight is the same to the last bit");
     terminal.progress("drawing figures ...");
-    std::vector<fs::path> files = drawn_where_possible(
-        [&] { return report::plot(record::read_recording(result.recording), folder).files; });
-    files.insert(files.begin(), result.recording);
-    terminal.written(files);
+    terminal.written(with_drawn({result.recording}, [&] {
+        return report::plot(record::read_recording(result.recording), folder).files;
+    }));
 }
 
 OptionList options_of(ReplayOptions& options) {

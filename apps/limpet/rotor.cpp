@@ -13,7 +13,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/propeller_file.hpp"
-#include "limpet/scenario/samples.hpp"
+#include "limpet/scenario/catalogue.hpp"
 
 namespace limpet::app {
 namespace {

@@ -40,17 +40,17 @@ OptionList options_of(SimIoOptions& options) {
          options_of(options.live, false)});
 }
 
-void say_wires(const surroundings::OutsideWires& wires, Terminal& terminal) {
+void print_wires(const surroundings::OutsideWires& wires, Terminal& terminal) {
     terminal.line("sensors", wires.sensors->transport().describe());
-    const auto say = [&terminal](const char* what, const auto& wire) {
+    const auto print = [&terminal](const char* what, const auto& wire) {
         if (wire != nullptr) {
             terminal.line(what, wire->describe());
         }
     };
-    say("NatNet", wires.motion_capture);
-    say("left", wires.lidar_left);
-    say("right", wires.lidar_right);
-    say("mechanism", wires.mechanism);
+    print("NatNet", wires.motion_capture);
+    print("left", wires.lidar_left);
+    print("right", wires.lidar_right);
+    print("mechanism", wires.mechanism);
 }
 
 std::string report_line(const surroundings::OutsideCount& count) {
@@ -62,11 +62,11 @@ std::string report_line(const surroundings::OutsideCount& count) {
 void check(const SimIoOptions& options) {
     (void)expected_outcome(options.expect);
     if (options.px4.speed == "max") {
-        throw InputError("--speed max: the companion has its own clock; must be a number");
+        throw InputError("--speed max: the companion runs by its own clock; must be a number");
     }
     if (has_serial(options.wires) && speed_of(options.px4.speed, 1.0) != 1.0) {
         throw InputError("--speed " + options.px4.speed +
-                         ": what hangs on a serial wire has its own clock; there is 1 alone");
+                         ": devices on a serial wire run in real time; only 1 is possible");
     }
 }
 
@@ -92,7 +92,7 @@ ExitCode sim_io(SimIoOptions options) {
                                 terminal);
     const OutFolder folder(options.folder(scenario.name));
     introduce(scenario, terminal);
-    say_wires(guidance.wires(), terminal);
+    print_wires(guidance.wires(), terminal);
     const std::atomic<bool>* stop = stop_on_signals();
     Px4Link px4(options.px4, *model, false, folder.path(), terminal, stop);
     terminal.line(terminal.dim(simulation::event_head()));
@@ -101,7 +101,7 @@ ExitCode sim_io(SimIoOptions options) {
         .start_limit_s = options.start_limit_s,
         .speed = px4.speed(),
         .stop = stop,
-        .beside = live.get()};
+        .mirror = live.get()};
     conduct.on_obstacle = [&terminal](const std::string& obstacle) {
         terminal.line(terminal.dim("          " + (obstacle.empty() ? "off the stand" : obstacle)));
     };
@@ -130,7 +130,7 @@ Verb sim_io_verb() {
         "  limpet stand-in perch_concrete       or PX4: docs/px4.md\n"
         "  limpet companion simulation\n"
         "The vehicle stands until the companion takes off. The flight ends when the companion\n"
-        "says so, at a crash or at the scenario's time limit.\n");
+        "ends it, at a crash or at the scenario's time limit.\n");
 }
 
 }  // namespace limpet::app

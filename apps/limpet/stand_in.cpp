@@ -12,6 +12,7 @@
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
 #include "terminal.hpp"
@@ -30,12 +31,9 @@ struct StandInOptions {
 
 /// A vehicle flies as in the scenario `hover`.
 scenario::Scenario scenario_of(const std::string& what) {
-    const auto vehicles = scenario::list_files(scenario::data_root() / "vehicles");
-    const bool vehicle =
-        std::any_of(vehicles.begin(), vehicles.end(),
-                    [&](const scenario::CatalogueEntry& entry) { return entry.name == what; });
-    return vehicle ? scenario::load_scenario("hover", {.overrides = {"vehicle=" + what}})
-                   : scenario::load_scenario(what);
+    return scenario::is_vehicle(what, scenario::data_root())
+               ? scenario::load_scenario("hover", {.overrides = {"vehicle=" + what}})
+               : scenario::load_scenario(what);
 }
 
 void set(const std::vector<BoundParameter>& rows, const std::string& text) {
@@ -104,7 +102,7 @@ OptionList options_of(StandInOptions& options) {
             {"--onboard ADDRESS", &options.onboard,
              "where its onboard link listens (default udp:127.0.0.1:14580 + N)"},
             {"--peer ADDRESS", &options.peer,
-             "whom the onboard link speaks to at first (default\nudp:127.0.0.1:14540 + N)"},
+             "first peer of the onboard link (default\nudp:127.0.0.1:14540 + N)"},
             {"--param NAME=VALUE", &options.parameters,
              "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given"}};
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -22,9 +21,6 @@ namespace limpet::app {
 namespace {
 
 namespace fs = std::filesystem;
-using StudyTime = std::chrono::steady_clock;
-
-constexpr auto kStudyLineEvery = std::chrono::seconds(5);  ///< where no person watches
 
 struct StudyOptions {
     std::string wanted;
@@ -41,7 +37,7 @@ struct StudyOptions {
 /// "0.8..1.2" and "1.1+-0.05" as a campaign's file has them; what else it is, it stays.
 std::string spread_of(const std::string& text) {
     const auto parted = [&text](const char* sign) {
-        const std::size_t at = text.find(sign, 1);  // a number may begin with a sign of its own
+        const std::size_t at = text.find(sign, 1);  // a number may begin with a sign
         return at == std::string::npos ? std::pair<std::string, std::string>()
                                        : std::pair(text.substr(0, at), text.substr(at + 2));
     };
@@ -60,7 +56,7 @@ std::string spread_of(const std::string& text) {
         text));
 }
 
-/// A campaign's file of what --vary and --set say.
+/// A campaign's file of --vary and --set.
 std::string file_of(const StudyOptions& options) {
     std::string text = fmt::format(
         "scenario: {}\nruns: {}\n",
@@ -109,7 +105,7 @@ campaign::Campaign campaign_of(const StudyOptions& options) {
         };
         if (!is_one_of("campaigns") && is_one_of("scenarios")) {
             throw InputError(fmt::format(
-                "{} is a scenario: say what varies in it, --vary KEY=SPREAD", options.wanted));
+                "{} is a scenario: name what varies in it, --vary KEY=SPREAD", options.wanted));
         }
         return campaign::load_campaign(options.wanted);
     }
@@ -123,25 +119,17 @@ campaign::Campaign campaign_of(const StudyOptions& options) {
             key.place = "--vary";
         }
         return campaign;
-    } catch (const InputError& error) {  // who asked knows no line of that file
+    } catch (const InputError& error) {  // of a file that the user has not written
         throw InputError(without_places(error.what(), file.string()));
     }
 }
 
-study::StudyWatch study_watch(Terminal& terminal) {
+campaign::CampaignWatch study_watch(Terminal& terminal) {
     return {.on_progress =
-                [&terminal, next = StudyTime::now() +
-                                   kStudyLineEvery](const study::StudyProgress& progress) mutable {
-                    const auto text = [&progress] {
-                        return fmt::format("{} of {} flights, {:.1f} a second", progress.finished,
-                                           progress.runs, progress.flown / progress.elapsed_s);
-                    };
-                    if (terminal.live()) {
-                        terminal.progress(text());
-                    } else if (StudyTime::now() >= next) {
-                        terminal.line(text());
-                        next = StudyTime::now() + kStudyLineEvery;
-                    }
+                [&terminal](const campaign::Progress& progress) {
+                    terminal.slow_progress(fmt::format("{} of {} flights, {:.1f} a second",
+                                                       progress.finished, progress.runs,
+                                                       progress.flown / progress.elapsed_s));
                 },
             .stop = stop_on_signals()};
 }
@@ -151,8 +139,7 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     const study::StudyFigure figure = study::parse_figure(options.of);
     const campaign::Campaign campaign = campaign_of(options);
     study::require_drawn(campaign);
-    const OutFolder folder(options.out.empty() ? fs::path("out") / (campaign.name + "_study")
-                                               : fs::path(options.out));
+    const OutFolder folder(out_folder(options.out, campaign.name + "_study"));
     campaign::Results results = begin_results(campaign, folder.path(), options.resume);
     study::begin_study(results, {.figure = figure.text(), .samples = options.samples});
     Terminal terminal(options.json ? Terminal::Voice::machine : Terminal::Voice::normal);
@@ -160,7 +147,7 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     terminal.line(terminal.bold(campaign.name) +
                   fmt::format(": {} flights, {} samples by {} input{} and noise", plan.runs(),
                               plan.samples, plan.inputs, plan.inputs == 1 ? "" : "s"));
-    const study::StudyProgress progress =
+    const campaign::Progress progress =
         study::fly_study(results, options.jobs, study_watch(terminal));
     if (progress.finished < progress.runs) {
         complain(
@@ -173,19 +160,9 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     terminal.line("");
     const study::StudyFound found = study::find_study(results);
     fmt::print("{}", options.json ? study_json(found) + "\n" : study_text(found));
-    std::vector<fs::path> files = {folder.path() / campaign::Results::kFileName};
-    for (fs::path& file :
-         drawn_where_possible([&] { return study::draw_study(found, folder.path()); })) {
-        files.push_back(std::move(file));
-    }
-    terminal.written(files);
-    const auto outcomes = results.outcomes();
-    if (const auto faults = outcomes.find(campaign::kFault); faults != outcomes.end()) {
-        complain(fmt::format("{} flights broke off by a fault of ours: limpet summary {}",
-                             faults->second, folder.path().string()));
-        return ExitCode::our_fault;
-    }
-    return ExitCode::ok;
+    terminal.written(with_drawn({folder.path() / campaign::Results::kFileName},
+                                [&] { return study::draw_study(found, folder.path()); }));
+    return code_of_faults(results.outcomes(), folder.path().string());
 }
 
 OptionList options_of(StudyOptions& options) {
@@ -215,14 +192,14 @@ OptionList options_of(StudyOptions& options) {
 
 Verb study_verb() {
     return verb<StudyOptions>(
-        "study", "Ask which inputs make a number what it is: Sobol indices, its spread", options_of,
+        "study", "Find which inputs a number depends on: Sobol indices, its spread", options_of,
         make_study,
         "Examples:\n"
         "  limpet study perch_concrete --of impact_force_N \\\n"
         "    --vary guidance.dock_speed_m_s=0.9..1.2 --vary "
         "vehicle.slider.stiffness_N_m=300..800\n\n"
         "Each input's share of the number's variance, alone and with what it does together with "
-        "others, and\nthe share of the flight's own noise; 95 % intervals. Of an event also its "
+        "others, and\nthe share of the flight's noise; 95 % intervals. Of an event also its "
         "probability. Writes\nresults.sqlite, a row a flight (limpet replay, summary), and "
         "study.png, study.svg.\n");
 }

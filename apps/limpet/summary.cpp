@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/campaign/cells_page.hpp"
-#include "limpet/rare/rare_summary.hpp"
+#include "limpet/rare/rare.hpp"
 #include "limpet/study/study.hpp"
 #include "output.hpp"
 
@@ -27,15 +26,15 @@ struct SummaryOptions {
 
 /// @param draw  makes the figures in a folder
 /// @param page  and a page, if there is one
-void tell(const SummaryOptions& options, const fs::path& database, const std::string& text,
-          const std::function<std::vector<fs::path>(const fs::path&)>& draw,
-          const std::function<std::optional<fs::path>(const fs::path&)>& page = {}) {
+void report(const SummaryOptions& options, const fs::path& database, const std::string& text,
+            const std::function<std::vector<fs::path>(const fs::path&)>& draw,
+            const std::function<std::optional<fs::path>(const fs::path&)>& page = {}) {
     fmt::print("{}\n", text);
     if (options.json && options.out.empty()) {
-        return;  // a program asked: it gets what it asked for
+        return;  // for a program: figures only on request
     }
-    const fs::path folder = folder_or_beside(options.out, database);
-    std::vector<fs::path> files = drawn_where_possible([&] { return draw(folder); });
+    const fs::path folder = folder_or_next_to(options.out, database);
+    std::vector<fs::path> files = with_drawn({}, [&] { return draw(folder); });
     if (page) {
         if (const auto cells = page(folder)) {
             files.push_back(*cells);
@@ -51,18 +50,18 @@ void summarise_campaign(const SummaryOptions& options) {
     campaign::Results results(database, campaign::Access::read);
     if (const auto search = rare::rare_search(results)) {
         const rare::RareSummary summary = summarise_rare(results, *search);
-        tell(options, database, options.json ? rare::rare_json(summary) : rare_text(summary),
-             [&](const fs::path& folder) { return rare::draw_rare(summary, folder); });
+        report(options, database, options.json ? rare::rare_json(summary) : rare_text(summary),
+               [&](const fs::path& folder) { return rare::draw_rare(summary, folder); });
         return;
     }
-    if (study::study_asked(results)) {
+    if (study::study_request(results)) {
         const study::StudyFound found = study::find_study(results);
-        tell(options, database, options.json ? study_json(found) : study_text(found),
-             [&](const fs::path& folder) { return study::draw_study(found, folder); });
+        report(options, database, options.json ? study_json(found) : study_text(found),
+               [&](const fs::path& folder) { return study::draw_study(found, folder); });
         return;
     }
     const campaign::CampaignSummary summary = summarise(results);
-    tell(
+    report(
         options, database, options.json ? summary_json(summary) : summary_text(summary),
         [&](const fs::path& folder) { return draw_summary(summary, folder); },
         [&](const fs::path& folder) { return write_cells(results, database, folder); });

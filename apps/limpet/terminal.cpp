@@ -29,7 +29,7 @@ long long now_ns() {
 }
 
 /// timeout(1) and some terminals send one twice, to the program and to its group.
-void hear_signal(int number) {
+void take_signal(int number) {
     constexpr long long kTheSame_ns = 1'000'000'000;
     if (!interrupted.exchange(true)) {
         first_signal_ns = now_ns();
@@ -39,7 +39,7 @@ void hear_signal(int number) {
     }
 }
 
-/// What does not get there is known to the stream: main() asks standard output in the end.
+/// A failed write is kept by the stream: main() checks standard output at the end.
 void put(std::FILE* out, const std::string& text) {
     (void)std::fwrite(text.data(), 1, text.size(), out);
     (void)std::fflush(out);
@@ -96,7 +96,7 @@ void Terminal::slow_progress(const std::string& text) {
     if (!text.empty() && now >= next_line_) {
         constexpr std::chrono::seconds kEvery{5};
         next_line_ = now + kEvery;
-        put(out_, text + "\n");
+        line(text);
     }
 }
 
@@ -167,7 +167,7 @@ void complain(std::string message) {
 const std::atomic<bool>* stop_on_signals(SecondSignal second) {
     only_the_first = second == SecondSignal::changes_nothing;
     struct sigaction action = {};
-    action.sa_handler = hear_signal;
+    action.sa_handler = take_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     sigaction(SIGHUP, &action, nullptr);  // the terminal is gone

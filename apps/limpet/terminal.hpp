@@ -12,7 +12,7 @@
 namespace limpet::app {
 
 /// Where a verb talks to a person: standard output, or standard error when the output is for a
-/// program; silent when asked to be.
+/// program; or nowhere.
 class Terminal {
 public:
     enum class Voice {
@@ -54,8 +54,8 @@ private:
 
 /// Columns of the terminal behind a stream; 0 where there is none.
 [[nodiscard]] std::size_t columns_of(std::FILE* stream);
-/// A line broken at blanks into such of at most `columns`, all but the first indented. Colours take
-/// no room. A word that is longer stays whole.
+/// A line broken at blanks into such of at most `columns`, all but the first indented. Colours do
+/// not count. A word that is longer stays whole.
 /// @param columns  0: any length
 [[nodiscard]] std::string folded(const std::string& line, std::size_t columns, std::size_t indent);
 

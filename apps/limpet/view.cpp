@@ -26,7 +26,7 @@ void view(const ViewOptions& options) {
                                                         options.recordings.end());
     const std::string html = report::view_html(recordings);
     const std::filesystem::path page =
-        folder_or_beside(options.out, options.recordings.front()) / "view.html";
+        folder_or_next_to(options.out, options.recordings.front()) / "view.html";
     write_file(page, html);
     print_files({page});
     if (options.open) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "limpet/why/why.hpp"
+
 #include <fmt/core.h>
 
 #include <filesystem>
@@ -7,10 +9,10 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/why/report.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -26,18 +28,30 @@ struct WhyOptions {
     bool no_figure = false;
 };
 
-/// A scenario spelled out, and what is known of a flight of it.
-struct Asked {
+/// A scenario in full, and the summary of a flight of it.
+struct Subject {
     std::string name;
     std::string yaml;
+    bool of_recording = false;
     record::Summary recorded;
+    std::string damage = {};  ///< of the recording; empty: none
 };
 
-Asked asked_of(const WhyOptions& options) {
-    if (!options.wanted.ends_with(".mcap")) {
+/// What a recording calls its scenario becomes the name of a folder, where it is fit for one: a
+/// stranger's may be a path.
+std::string name_in(const record::Summary& recorded) {
+    constexpr std::size_t kLongest = 100;
+    const std::string& name = recorded.scenario;
+    const bool plain =
+        !name.empty() && name.size() <= kLongest && name[0] != '.' && name.find('/') == name.npos;
+    return plain ? name : "recording";
+}
+
+Subject subject_of(const WhyOptions& options) {
+    if (!is_recording_name(options.wanted)) {
         const auto scenario =
             scenario::load_scenario(options.wanted, {.overrides = options.overrides});
-        return {scenario.name, to_yaml(scenario), {}};
+        return {scenario.name, to_yaml(scenario), false, {}};
     }
     const record::Recording recording = record::read_recording(options.wanted);
     const mcap::Attachment* text = recording.attachment("scenario.yaml");
@@ -46,55 +60,53 @@ Asked asked_of(const WhyOptions& options) {
                          ": has no scenario to fly again: a recording of limpet's, or a scenario");
     }
     record::Summary recorded = summary(recording);
-    const std::string name = recorded.scenario.empty() ? "recording" : recorded.scenario;
-    const auto scenario =
-        scenario::load_scenario_text(text->text, name, {.overrides = options.overrides});
-    return {name, to_yaml(scenario), std::move(recorded)};
+    const auto scenario = scenario::load_scenario_text(
+        text->text, options.wanted + ": scenario.yaml", {.overrides = options.overrides});
+    const std::string name = name_in(recorded);
+    return {name, to_yaml(scenario), true, std::move(recorded), recording.damage};
 }
 
 /// What was recorded and what is flown may be two flights.
-void tell_of_another(const record::Summary& recorded, const why::Found& found, bool changed) {
+void report_another(const record::Summary& recorded, const why::Found& found, bool changed) {
     const std::string flown(to_string(found.base.result.outcome));
     if (!changed && !recorded.outcome.empty() &&
         (recorded.outcome != flown || recorded.reason != found.base.result.reason)) {
         complain(fmt::format(
             "recorded was {}: {}; its scenario flown again is another flight (a campaign's run has "
-            "noise of its own, another Limpet flies otherwise)",
+            "other noise, another version of Limpet flies otherwise)",
             recorded.outcome, recorded.reason));
     }
 }
 
-ExitCode tell_why(const WhyOptions& options) {
-    const Asked asked = asked_of(options);
-    const scenario::ScenarioText text(asked.yaml, asked.name);
-    const OutFolder folder(options.out.empty()
-                               ? std::filesystem::path("out") / (asked.name + "_why")
-                               : std::filesystem::path(options.out));
+ExitCode explain(const WhyOptions& options) {
+    const Subject subject = subject_of(options);
+    const scenario::ScenarioText text(subject.yaml, subject.name);
+    const OutFolder folder(out_folder(options.out, subject.name + "_why"));
     Terminal terminal(options.json ? Terminal::Voice::machine : Terminal::Voice::normal);
     const why::Found found = why::find_why(
         text, {.jobs = options.jobs,
                .stop = stop_on_signals(),
                .tell = [&terminal](const std::string& what) { terminal.progress(what); }});
     terminal.progress("");
-    std::string again = options.wanted;
-    if (again.ends_with(".mcap")) {
-        again = (folder.path() / "scenario.yaml").string();
-        write_file(again, asked.yaml);
-    }
-    for (const std::string& one : options.overrides) {
-        again += again.ends_with("scenario.yaml") ? "" : " --set " + one;
+    const std::filesystem::path spelled_out = folder.path() / "scenario.yaml";
+    std::string again = for_shell(subject.of_recording ? spelled_out.string() : options.wanted);
+    if (subject.of_recording) {
+        write_file(spelled_out, subject.yaml);
+    } else {
+        for (const std::string& one : options.overrides) {
+            again += " --set " + for_shell(one);
+        }
     }
     fmt::print("{}", options.json ? why_json(found) + "\n" : why_text(found, again));
     write_file(folder.path() / "why.json", why_json(found) + "\n");
-    tell_of_another(asked.recorded, found, !options.overrides.empty());
-    std::vector<std::filesystem::path> files = {folder.path() / "why.json"};
-    if (!options.no_figure) {
-        for (std::filesystem::path& file :
-             drawn_where_possible([&] { return draw_why(found, folder.path()); })) {
-            files.push_back(std::move(file));
-        }
+    report_another(subject.recorded, found, !options.overrides.empty());
+    terminal.written(with_drawn({folder.path() / "why.json"}, [&] {
+        return options.no_figure ? Files() : draw_why(found, folder.path());
+    }));
+    if (!subject.damage.empty()) {  // its scenario was whole, and is explained
+        std::fflush(stdout);
+        throw InputError(options.wanted + ": " + subject.damage);
     }
-    terminal.written(files);
     return ExitCode::ok;
 }
 
@@ -102,7 +114,7 @@ OptionList options_of(WhyOptions& options) {
     return {{"flight RECORDING|SCENARIO", &options.wanted,
              "a recording of limpet's (.mcap), whose scenario is flown again, or a\n"
              "scenario's name or file"},
-            overrides_option(options.overrides, "set a key before it is asked why"),
+            overrides_option(options.overrides, "set a key of the scenario"),
             jobs_option(options.jobs),
             {"--out DIR", &options.out, "folder (default: out/NAME_why)"},
             {"--json", &options.json, "one JSON object on standard output"},
@@ -113,12 +125,12 @@ OptionList options_of(WhyOptions& options) {
 
 Verb why_verb() {
     return verb<WhyOptions>(
-        "why", "Ask why a flight failed: what let go, which settings would mend it", options_of,
-        tell_why,
+        "why", "Find why a flight failed: what let go, which settings would mend it", options_of,
+        explain,
         "Examples:\n"
         "  limpet why perch_metal\n"
         "  limpet why out/my_perch/flight.mcap --json\n\n"
-        "Flies it again, reports the loads on the cup until it let go and by which moment, then "
+        "Flies it again, reports the loads on the cup until it let go and by what, then "
         "turns "
         "every\nsetting (a third, three times), alone and together with those that help most.\n"
         "Writes why.json, why.png and why.svg: margins over time, as it is and with the "

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/autopilot/aiding.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "limpet/autopilot/estimator.hpp"
 
 namespace limpet::autopilot {
 namespace {
@@ -52,7 +52,7 @@ void know_from_then(Covariance& covariance, const Measurement& measurement) {
 /// Takes the innovation as the error.
 /// @param astray_s  for how long it has not fitted
 void believe(Fusion& fusion, const Measurement& measurement, double astray_s, int block) {
-    bool told = false;
+    bool observed = false;
     double astray_m = 0.0;
     for (int i = 0; i < measurement.rows; ++i) {
         const auto row = static_cast<std::size_t>(i);
@@ -60,7 +60,7 @@ void believe(Fusion& fusion, const Measurement& measurement, double astray_s, in
             if (measurement.jacobian[row][error] == 1.0) {
                 fusion.correction[error] = measurement.innovation[row];
                 reset_error(fusion.covariance, error, measurement.variance[row]);
-                told = true;
+                observed = true;
             }
         }
         astray_m = std::max(astray_m, std::abs(measurement.innovation[row]));
@@ -69,7 +69,7 @@ void believe(Fusion& fusion, const Measurement& measurement, double astray_s, in
         open_up(fusion, kVelocity, std::max(kLostVelocity_m_s, astray_m / astray_s));
         know_from_then(fusion.covariance, measurement);
     }
-    if (!told) {  // a field says nothing of the turn about it: let the next ones pass the gate
+    if (!observed) {  // a field says nothing of the turn about it: let the next ones pass the gate
         open_up(fusion, block, kLostAttitude_rad);
     }
 }

@@ -38,7 +38,7 @@ struct Mixer {
 ///         hover one of them had to push down
 [[nodiscard]] Mixer make_mixer(const RotorList<RotorGeometry>& rotors);
 
-/// Axes about which more torque was asked than was given, per sign.
+/// Axes about which more torque was requested than was given, per sign.
 struct Saturation {
     std::array<bool, 3> positive{};
     std::array<bool, 3> negative{};

@@ -46,12 +46,12 @@ double interval(AutopilotState& state, double time_s) {
     return dt_s;
 }
 
-/// Of somebody else's autopilot.
+/// Of a user's autopilot.
 void require_flyable(const AutopilotOutput& output, std::size_t rotors) {
     bool finite = output.torque.allFinite() && std::isfinite(output.thrust);
     if (output.rotors) {
         if (output.rotors->size() != rotors) {
-            throw InputError("an autopilot of your own: commands " +
+            throw InputError("the user's autopilot: commands " +
                              std::to_string(output.rotors->size()) + " rotors of " +
                              std::to_string(rotors));
         }
@@ -59,7 +59,7 @@ void require_flyable(const AutopilotOutput& output, std::size_t rotors) {
                                        [](double command) { return std::isfinite(command); });
     }
     if (!finite) {
-        throw InputError("an autopilot of your own: a command that is not finite");
+        throw InputError("the user's autopilot: a command that is not finite");
     }
 }
 
@@ -86,7 +86,7 @@ RotorCommand idle(const AutopilotModel& model, bool armed) {
     return {.command = RotorList<double>(model.mixer.rotors()), .armed = armed};
 }
 
-/// What was asked for attitude_age_steps ago.
+/// What was requested attitude_age_steps ago.
 Vector3 on_its_way(AutopilotState& state, const Vector3& rate_target_rad_s) {
     std::vector<double>& line = state.memory;
     if (line.empty()) {

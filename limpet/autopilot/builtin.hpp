@@ -41,7 +41,7 @@ struct AutopilotState {
     double control_s = 0.0;            ///< when control last ran
     AttitudeSetpoint attitude_target;  ///< the inner setpoints, for telemetry
     Vector3 rate_target_rad_s = Vector3::Zero();
-    Vector3 torque = Vector3::Zero();  ///< asked of the allocation
+    Vector3 torque = Vector3::Zero();  ///< requested from the allocation
     std::vector<double> memory;        ///< of model.own; else rate set-points on their way
 };
 

@@ -12,11 +12,11 @@
 
 namespace limpet::autopilot {
 
-/// Who flies behind a wire, as it told.
+/// Who flies behind a wire, as it reports.
 struct AutopilotIdentity {
     std::string name;             ///< "PX4", "stand-in"
     std::string version;          ///< "1.15.1"
-    std::string git_hash;         ///< the first 10 digits; empty: it told none
+    std::string git_hash;         ///< the first 10 digits; empty: it reports none
     std::optional<int> airframe;  ///< PX4's SYS_AUTOSTART
     int system = 0;               ///< MAVLink's system number
 };
@@ -39,7 +39,7 @@ public:
     [[nodiscard]] virtual double waited_s() const = 0;
     /// What keeps it from flying, for people; empty when nothing does.
     [[nodiscard]] virtual std::string obstacle() const = 0;
-    /// Nothing as long as it has not told.
+    /// Nothing as long as it has not reported.
     [[nodiscard]] virtual std::optional<AutopilotIdentity> identity() const { return {}; }
 };
 

@@ -38,7 +38,7 @@ void add_columns(Covariance& matrix, int to, int from, double factor) {
 
 /// M = M F', three columns at a time: F is the identity but for a few 3x3 blocks. Positions take
 /// the old velocities, velocities the old attitudes, attitudes the old biases.
-/// @tparam kPositions, kVelocities, kAttitudes  as many rows of these columns are asked for
+/// @tparam kPositions, kVelocities, kAttitudes  as many rows of these columns are requested
 template <int kPositions, int kVelocities, int kAttitudes>
 void multiply_by_transposed(Covariance& matrix, const Transition& f) {
     add_columns<kPositions>(matrix, kPosition, kVelocity, f.dt_s);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/autopilot/parameters.hpp"
 
-#include <initializer_list>
-
 namespace limpet::autopilot {
 namespace {
 

@@ -56,7 +56,7 @@ Vector3 thrust_from_acceleration(const AutopilotParameters& p, const Vector3& a_
     return z_B_W * std::min(vertical / z_B_W.z(), -least);
 }
 
-/// Gives the vertical what it asks for, less a margin for the horizontal; the horizontal the rest.
+/// Gives the vertical what it demands, less a margin for the horizontal; the horizontal the rest.
 Vector3 limit_thrust(const AutopilotParameters& p, const Vector3& thrust) {
     const double largest = p.MPC_THR_MAX;
     const double horizontal = thrust.head<2>().norm();

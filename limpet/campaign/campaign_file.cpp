@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/campaign_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "limpet/campaign/campaign.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::campaign {

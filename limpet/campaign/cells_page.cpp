@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/cells_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "limpet/campaign/statistics.hpp"
-#include "limpet/campaign/success.hpp"
+#include "limpet/campaign/summary.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/write_file.hpp"
 #include "limpet/draw/html.hpp"
@@ -54,19 +51,19 @@ button:focus-visible, .scroll:focus-visible { outline: 3px solid #3b7dd8 }
 .timed_out, .interrupted { background: #c6ccd6 } .crashed, .fault, .untrue { background: #f08a80 }
 ul.key { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .3rem .6rem }
 ul.key li { border-radius: 3px; padding: 0 .5rem; color: #10151c }
-#said { position: fixed; inset: auto 0 0; padding: .6rem 1rem; background: var(--paper);
+#pressed { position: fixed; inset: auto 0 0; padding: .6rem 1rem; background: var(--paper);
   border-top: 1px solid var(--line) }
-#said code { user-select: all }
+#pressed code { user-select: all }
 )";
 
 constexpr const char* kScript = R"(
-const said = document.getElementById("said");
+const pressed = document.getElementById("pressed");
 document.addEventListener("click", (event) => {
   const cell = event.target.closest("td button");
   if (!cell) return;
   const code = document.createElement("code");
-  code.textContent = `limpet replay ${said.dataset.database} ${cell.dataset.run}`;
-  said.replaceChildren(`${cell.title} — `, code);
+  code.textContent = `limpet replay ${pressed.dataset.database} ${cell.dataset.run}`;
+  pressed.replaceChildren(`${cell.title} — `, code);
 });
 )";
 
@@ -78,7 +75,7 @@ int badness_of(const RunRow& row, const Campaign& campaign) {
 }
 
 /// Guidance's outcome is the truth's; no flight has none.
-bool ended_as_told(const RunRow& row) {
+bool ended_as_reported(const RunRow& row) {
     const auto outcome = outcome_from(row.outcome);
     return !outcome || ended_as(row, *outcome);
 }
@@ -103,7 +100,7 @@ public:
             cell.outcome = row.outcome;
             cell.reason =
                 row.true_end.empty() ? row.reason : row.reason + "; in truth " + row.true_end;
-            cell.look = ended_as_told(row) ? row.outcome : "untrue";
+            cell.look = ended_as_reported(row) ? row.outcome : "untrue";
         }
         ++outcomes_[row.outcome];
     }
@@ -125,7 +122,7 @@ public:
         std::vector<std::string> outer;
         add_tables(outer);
         add_text(
-            "</main>\n<div id=\"said\" role=\"status\" data-database=\"{}\">No cell is "
+            "</main>\n<div id=\"pressed\" role=\"status\" data-database=\"{}\">No cell is "
             "pressed.</div>\n<script>{}</script></html>\n",
             escaped(database_.string()), kScript);
         return std::move(text_);

@@ -6,7 +6,7 @@
 
 #include "limpet/campaign/results.hpp"
 
-// What a row consists of, said once: a database has it as columns, a message as bytes.
+// What a row consists of, in one place: a database has it as columns, a message as bytes.
 namespace limpet::campaign {
 
 /// Calls each(name, type, value) for the columns of the table `runs`, in their order.
@@ -34,7 +34,7 @@ void for_each_column(const Campaign& campaign, Row&& row, const Each& each) {
     }
 }
 
-/// With a sample that says of each key whether it has numbers or names.
+/// With a sample that holds for each key whether it has numbers or names.
 [[nodiscard]] inline RunRow empty_row(const Campaign& campaign) {
     RunRow row;
     for (const VariedKey& key : campaign.keys) {

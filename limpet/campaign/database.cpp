@@ -5,12 +5,12 @@
 
 #include <regex>
 
-#include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 
 namespace limpet::campaign {
 namespace {
 
-constexpr int kPatience_ms = 10'000;  ///< for somebody else's transaction
+constexpr int kPatience_ms = 10'000;  ///< for another program's transaction
 
 }  // namespace
 
@@ -32,11 +32,10 @@ void fail_as(const SQLite::Exception& error, const std::string& file) {
 }
 
 SQLite::Database open_database(const std::filesystem::path& path, Access access) {
-    std::error_code ignored;
-    if (access != Access::create && !std::filesystem::exists(path, ignored)) {
+    if (access != Access::create && !is_there(path)) {
         throw InputError(path.string() + ": there is no such file");
     }
-    if (std::filesystem::is_directory(path, ignored)) {
+    if (is_folder(path)) {
         throw InputError(path.string() + ": is a directory, not a database of results");
     }
     try {

@@ -3,11 +3,15 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "limpet/core/errors.hpp"
 
 namespace limpet::campaign {
 
@@ -24,7 +28,15 @@ enum class Access {
 ///         for what is wrong with our SQL
 [[noreturn]] void fail_as(const SQLite::Exception& error, const std::string& file);
 
-/// Does what asks a database something; see fail_as().
+/// @throws InputError "FILE: why"
+template <class... Values>
+[[noreturn]] void refuse(const SQLite::Database& database, fmt::format_string<Values...> why,
+                         Values&&... values) {
+    throw InputError(database.getFilename() + ": " +
+                     fmt::format(why, std::forward<Values>(values)...));
+}
+
+/// Queries a database; its errors are those of fail_as().
 template <class Work>
 auto asking(const SQLite::Database& database, const Work& work) {
     try {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/campaign/fliers.hpp"
 
-#include <exception>
 #include <new>
 #include <system_error>
 
-#include "limpet/campaign/workers.hpp"
 #include "limpet/plant/lane_group.hpp"
 
 namespace limpet::campaign {
@@ -13,22 +11,20 @@ namespace {
 
 void fly_lane(const Campaign& campaign, RunSource& source, const std::atomic<bool>* stop) noexcept {
     try {
-        while (const auto run = source.next()) {
-            const RunRow row = fly_run(campaign, *run, stop);
+        while (auto next = source.next()) {
+            fly_row(campaign, next->row, next->noise, stop);
             if (stop != nullptr && *stop) {
                 return;
             }
-            source.land(row);
+            source.land(next->row);
         }
     } catch (...) {
         source.fail(std::current_exception());
     }
 }
 
-}  // namespace
-
-void fly_assigned(const Campaign& campaign, RunSource& source,
-                  const std::atomic<bool>* stop) noexcept {
+void fly_lanes(const Campaign& campaign, RunSource& source,
+               const std::atomic<bool>* stop) noexcept {
     try {
         plant::fly_side_by_side([&] { fly_lane(campaign, source, stop); });
     } catch (...) {
@@ -36,13 +32,15 @@ void fly_assigned(const Campaign& campaign, RunSource& source,
     }
 }
 
+}  // namespace
+
 Fliers::Fliers(int jobs, const Campaign& campaign, RunSource& source,
                const std::atomic<bool>* stop) {
     try {
         while (threads_.size() < static_cast<std::size_t>(jobs)) {
             ++flying_;
             threads_.emplace_back([this, &campaign, &source, stop] {
-                fly_assigned(campaign, source, stop);
+                fly_lanes(campaign, source, stop);
                 --flying_;
             });
         }
@@ -51,6 +49,12 @@ Fliers::Fliers(int jobs, const Campaign& campaign, RunSource& source,
     } catch (const std::bad_alloc&) {  // nor memory for them
         --flying_;
     }
+}
+
+void fly_all(int jobs, const Campaign& campaign, RunSource& source,
+             const std::atomic<bool>* break_off) {
+    const Fliers others(jobs - 1, campaign, source, break_off);
+    fly_lanes(campaign, source, break_off);
 }
 
 }  // namespace limpet::campaign

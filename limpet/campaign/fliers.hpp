@@ -2,12 +2,25 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
+#include <optional>
 #include <thread>
 #include <vector>
 
-#include "limpet/campaign/run_source.hpp"
+#include "limpet/campaign/workers.hpp"
 
 namespace limpet::campaign {
+
+/// Assigns runs to the threads that fly and takes their rows. All threads call it at once.
+class RunSource {
+public:
+    virtual ~RunSource() = default;
+    /// The next run to fly; none: there are no more, or it is time to stop.
+    [[nodiscard]] virtual std::optional<RunToFly> next() = 0;
+    virtual void land(const RunRow& row) = 0;
+    /// A thread ends because this was thrown.
+    virtual void fail(std::exception_ptr why) noexcept = 0;
+};
 
 /// Threads that fly the runs of a source, each several runs side by side, until the source has no
 /// more.
@@ -27,8 +40,10 @@ private:
     std::vector<std::jthread> threads_;
 };
 
-/// The same in the calling thread; what is thrown goes to the source.
-void fly_assigned(const Campaign& campaign, RunSource& source,
-                  const std::atomic<bool>* stop) noexcept;
+/// The same on `jobs` threads, the calling one among them, until all are over; what is thrown goes
+/// to the source.
+/// @param break_off  may be null; then flights in progress are dropped
+void fly_all(int jobs, const Campaign& campaign, RunSource& source,
+             const std::atomic<bool>* break_off = nullptr);
 
 }  // namespace limpet::campaign

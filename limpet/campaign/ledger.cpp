@@ -5,26 +5,30 @@
 
 namespace limpet::campaign {
 
-Ledger::Ledger(Results& results, const CampaignWatch& watch, int ranks)
+Ledger::Ledger(Results& results, const CampaignWatch& watch, RunPlan plan, int ranks)
     : results_(results),
       watch_(watch),
+      plan_(std::move(plan)),
       finished_(results.finished_runs()),
-      end_(results.shard().end(results.campaign().runs)),
-      next_(results.shard().begin(results.campaign().runs)) {
+      end_(plan_.draw ? plan_.runs : results.shard().end(results.campaign().runs)),
+      next_(plan_.draw ? 0 : results.shard().begin(results.campaign().runs)) {
     progress_.runs = end_ - next_;
     progress_.finished = static_cast<std::uint32_t>(finished_.size());
     progress_.outcomes = results.outcomes();
     progress_.by_rank.resize(static_cast<std::size_t>(ranks));
 }
 
-std::optional<std::uint32_t> Ledger::next() {
+std::optional<RunToFly> Ledger::next() {
     const std::lock_guard lock(mutex_);
     while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
         ++next_;
     }
-    const auto asked = [](const std::atomic<bool>* flag) { return flag != nullptr && *flag; };
-    const bool stop = failed_ || asked(watch_.stop) || asked(watch_.break_off);
-    return stop || next_ >= end_ ? std::nullopt : std::optional(next_++);
+    const auto set = [](const std::atomic<bool>* flag) { return flag != nullptr && *flag; };
+    if (failed_ || set(watch_.stop) || set(watch_.break_off) || next_ >= end_) {
+        return std::nullopt;
+    }
+    const std::uint32_t run = next_++;
+    return plan_.draw ? plan_.draw(run) : RunToFly{row_to_fly(results_.campaign(), run), {}};
 }
 
 void Ledger::land(const RunRow& row, int rank) {

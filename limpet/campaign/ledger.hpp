@@ -4,8 +4,7 @@
 #include <chrono>
 #include <mutex>
 
-#include "limpet/campaign/run_source.hpp"
-#include "limpet/campaign/workers.hpp"
+#include "limpet/campaign/fliers.hpp"
 
 namespace limpet::campaign {
 
@@ -15,19 +14,20 @@ namespace limpet::campaign {
 class Ledger final : public RunSource {
 public:
     /// @param ranks  number of processes; 0: one, of which nothing is counted
-    Ledger(Results& results, const CampaignWatch& watch, int ranks = 0);
+    Ledger(Results& results, const CampaignWatch& watch, RunPlan plan = {}, int ranks = 0);
 
-    [[nodiscard]] std::optional<std::uint32_t> next() override;
+    [[nodiscard]] std::optional<RunToFly> next() override;
     void land(const RunRow& row) override { land(row, 0); }
     void land(const RunRow& row, int rank);
     void fail(std::exception_ptr why) noexcept override;
 
-    /// Once nobody flies any more: what was thrown first, or how far it has come.
+    /// Once no thread flies any more: throws what was thrown first, or returns the progress.
     [[nodiscard]] Progress conclude();
 
 private:
     Results& results_;
     const CampaignWatch& watch_;
+    const RunPlan plan_;
     Progress progress_;
     const std::vector<std::uint32_t> finished_;
     const std::uint32_t end_;

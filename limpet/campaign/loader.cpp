@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "limpet/campaign/campaign.hpp"
-#include "limpet/campaign/campaign_file.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
@@ -24,7 +23,7 @@ constexpr std::uint32_t kDrawsLookedAt = 1'000'000;  ///< of spreads without end
 using Sample = std::vector<SampledValue>;
 
 /// An error that names `--set key=value` was written in the campaign's file: say where.
-std::string told_of_campaign(const CampaignFile& file, const std::string& message) {
+std::string placed_in_campaign(const CampaignFile& file, const std::string& message) {
     if (message.rfind(scenario::kSet, 0) != 0) {
         return message;
     }
@@ -126,7 +125,7 @@ std::vector<std::pair<SampledValue, SampledValue>> extremes(const Campaign& camp
     return ends;
 }
 
-/// Of a key that is set and varies nobody knows which was meant.
+/// A key that is set and varies is ambiguous.
 void require_apart(const CampaignFile& file) {
     for (const std::string& one : file.overrides) {
         if (one.starts_with("seed=")) {
@@ -202,7 +201,7 @@ Campaign load_campaign(const std::string& wanted, const fs::path& data, const Wo
             (void)load_scenario(scenario_file(file, path.parent_path(), root), options);
         });
     } catch (const InputError& error) {
-        throw InputError(told_of_campaign(file, error.what()));
+        throw InputError(placed_in_campaign(file, error.what()));
     }
     return std::move(file.campaign);
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/merge.hpp"
-
 #include <fmt/format.h>
 
 #include <set>
 
+#include "limpet/campaign/results.hpp"
 #include "limpet/core/errors.hpp"
 
 namespace limpet::campaign {
@@ -68,17 +67,17 @@ void require_no_overlap(SQLite::Database& merged, const std::vector<Part>& befor
 
 /// @return "runs 64 to 127, 192" of those that are not there, the first few
 std::string gaps(SQLite::Database& merged, std::int64_t runs) {
-    constexpr std::size_t kMostTold = 3;
-    std::vector<std::string> told;
+    constexpr std::size_t kMostShown = 3;
+    std::vector<std::string> shown;
     SQLite::Statement there(merged, "SELECT run FROM main.runs ORDER BY run");
-    for (std::int64_t next = 0; next < runs && told.size() <= kMostTold; ++next) {
+    for (std::int64_t next = 0; next < runs && shown.size() <= kMostShown; ++next) {
         const std::int64_t run = there.executeStep() ? there.getColumn(0).getInt64() : runs;
         if (run > next) {
-            told.push_back(told.size() == kMostTold ? "..." : runs_text(next, run - 1));
+            shown.push_back(shown.size() == kMostShown ? "..." : runs_text(next, run - 1));
         }
         next = run;
     }
-    return fmt::format("{}", fmt::join(told, ", "));
+    return fmt::format("{}", fmt::join(shown, ", "));
 }
 
 /// @return "; not given: shard 2/8, 5/8", where the parts say what they are

@@ -78,28 +78,18 @@ private:
     const std::atomic<bool>* stop_;
 };
 
-void fly_assigned(const Seat& seat, const Campaign& campaign, RunSource& source,
-                  const std::atomic<bool>* stop) noexcept {
-    try {
-        while (const auto run = source.next()) {
-            RunRow row = row_to_fly(campaign, *run);
-            seat.fly(row);
-            if (stop != nullptr && *stop) {
-                return;
-            }
-            source.land(row);
-        }
-    } catch (const Interrupted&) {  // the ledger tells how far it has come
-    } catch (...) {
-        source.fail(std::current_exception());
-    }
-}
-
 void take_seat(const Results& results, const Px4Crew& crew, int number, Ledger& ledger,
                const CampaignWatch& watch) noexcept {
     try {
         const Seat seat(results.campaign(), crew, number, watch.stop);
-        fly_assigned(seat, results.campaign(), ledger, watch.stop);
+        while (auto next = ledger.next()) {
+            seat.fly(next->row);
+            if (watch.stop != nullptr && *watch.stop) {
+                return;
+            }
+            ledger.land(next->row);
+        }
+    } catch (const Interrupted&) {  // the ledger knows how far the campaign has come
     } catch (...) {
         ledger.fail(std::current_exception());
     }
@@ -112,7 +102,7 @@ void Px4Crew::check() const {
     if (last > px4::Px4Instance::kMost) {
         throw InputError(
             fmt::format("--instance {} and {} of them: the last would be {}, at most "
-                        "{} have ports of their own",
+                        "{} have separate ports",
                         first.number, instances, last, px4::Px4Instance::kMost));
     }
 }

@@ -9,11 +9,11 @@
 
 namespace limpet::campaign {
 
-/// PX4s that fly a campaign, one beside the other.
+/// PX4s that fly a campaign at the same time.
 struct Px4Crew {
     px4::Px4Instance first;            ///< the others are numbered on from it
     int instances = 1;                 ///< how many
-    std::optional<std::string> start;  ///< of px4::Px4Process; none: somebody else starts them
+    std::optional<std::string> start;  ///< of px4::Px4Process; none: the user starts them
     double wait_s = 60.0;              ///< longest wait for one, wall time
     bool only_px4 = false;             ///< the stand-in will not do
 

@@ -10,6 +10,7 @@
 
 #include "limpet/campaign/columns.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/version.hpp"
 
@@ -70,18 +71,6 @@ std::uint64_t hash_of(std::string_view text, std::uint64_t hash = 0xcbf29ce48422
     return hash;
 }
 
-std::string campaign_hash(const Campaign& campaign) {
-    return hash_text(hash_of(campaign.yaml));
-}
-
-std::string scenario_hash(const Campaign& campaign) {
-    std::uint64_t hash = hash_of("");
-    for (const scenario::ScenarioText& text : campaign.scenarios) {
-        hash = hash_of(text.yaml(), hash);
-    }
-    return hash_text(hash);
-}
-
 void write_campaign(SQLite::Database& database, const Campaign& campaign, const Shard& shard) {
     SQLite::Transaction transaction(database);
     database.exec(
@@ -91,9 +80,10 @@ void write_campaign(SQLite::Database& database, const Campaign& campaign, const 
                     "CREATE TABLE scenarios (variant INTEGER PRIMARY KEY, yaml TEXT);"
                     "{}",
                     kApplication, kSchema, create_sql(campaign)));
+    const Identity ours = identity_of(campaign);
     SQLite::Statement insert(database, "INSERT INTO campaign VALUES (?, ?, ?, ?, ?)");
-    SQLite::bind(insert, campaign.name, std::string(kVersion), campaign.yaml,
-                 campaign_hash(campaign), scenario_hash(campaign));
+    SQLite::bind(insert, campaign.name, std::string(kVersion), campaign.yaml, ours.campaign,
+                 ours.scenarios);
     insert.exec();
     SQLite::Statement scenario(database, "INSERT INTO scenarios VALUES (?, ?)");
     for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
@@ -121,14 +111,7 @@ std::string text(SQLite::Database& database, const std::string& sql) {
     return database.execAndGet(sql).getString();
 }
 
-template <class... Values>
-[[noreturn]] void refuse(const SQLite::Database& database, fmt::format_string<Values...> why,
-                         Values&&... values) {
-    throw InputError(database.getFilename() + ": " +
-                     fmt::format(why, std::forward<Values>(values)...));
-}
-
-/// What the header says before anything else is believed.
+/// Checks the header before anything else is read.
 void require_ours(SQLite::Database& database) {
     if (integer(database, "PRAGMA application_id") != kApplication) {
         refuse(database, "is not a database of results");
@@ -154,7 +137,7 @@ void require_tables(SQLite::Database& database) {
     }
 }
 
-/// Values that no run of ours was given: somebody else wrote them.
+/// Refuses values that no run was given: another program wrote them.
 void require_values(SQLite::Database& database, const Campaign& campaign) {
     for (const VariedKey& key : campaign.keys) {
         const std::string column = sql_name(key.key);
@@ -231,8 +214,12 @@ std::string hash_text(std::uint64_t hash) {
 }
 
 Identity identity_of(const Campaign& campaign) {
-    return {.campaign = campaign_hash(campaign),
-            .scenarios = scenario_hash(campaign),
+    std::uint64_t scenarios = hash_of("");
+    for (const scenario::ScenarioText& text : campaign.scenarios) {
+        scenarios = hash_of(text.yaml(), scenarios);
+    }
+    return {.campaign = hash_text(hash_of(campaign.yaml)),
+            .scenarios = hash_text(scenarios),
             .version = std::string(kVersion),
             .on_px4 = campaign.on_px4};
 }
@@ -246,8 +233,7 @@ const char* difference(const Identity& one, const Identity& other) {
 }
 
 fs::path Results::file_of(const fs::path& wanted) {
-    std::error_code ignored;
-    return fs::is_directory(wanted, ignored) ? wanted / kFileName : wanted;
+    return is_folder(wanted) ? wanted / kFileName : wanted;
 }
 
 void Results::create(const fs::path& path, const Campaign& campaign, const Shard& shard) {
@@ -279,8 +265,9 @@ Results::Results(const fs::path& path, Access access) : database_(open_database(
             refuse(database_, "has other columns than this Limpet ({}) writes; it was begun by {}",
                    kVersion, version_);
         }
-        if (text(database_, "SELECT campaign_hash FROM campaign") != campaign_hash(campaign_) ||
-            text(database_, "SELECT scenario_hash FROM campaign") != scenario_hash(campaign_)) {
+        const Identity ours = identity_of(campaign_);
+        if (text(database_, "SELECT campaign_hash FROM campaign") != ours.campaign ||
+            text(database_, "SELECT scenario_hash FROM campaign") != ours.scenarios) {
             refuse(database_,
                    "is damaged: campaign or scenarios are not those that it was begun with");
         }
@@ -309,13 +296,12 @@ void Results::require_same(const Campaign& campaign, const Shard& shard) const {
 }
 
 Identity Results::identity() const {
-    return {.campaign = campaign_hash(campaign_),
-            .scenarios = scenario_hash(campaign_),
-            .version = version_,
-            .on_px4 = campaign_.on_px4};
+    Identity identity = identity_of(campaign_);
+    identity.version = version_;
+    return identity;
 }
 
-/// Not before there is something to write: whoever is refused leaves the file as it was.
+/// Not before there is something to write: a program that is refused leaves the file unchanged.
 void Results::start_log() {
     database_.exec("PRAGMA journal_mode = WAL");
     database_.exec("PRAGMA synchronous = NORMAL");
@@ -329,7 +315,7 @@ void Results::add(const std::vector<RunRow>& rows) {
         }
         SQLite::Transaction transaction(database_);
         for (const RunRow& row : rows) {
-            (void)insert_->tryReset();  // also after one that failed, which was told
+            (void)insert_->tryReset();  // also after one that failed, which was reported
             int at = 1;
             for_each_column(campaign_, row, [&](const auto&, const char*, const auto& value) {
                 bind(*insert_, at++, value);
@@ -396,8 +382,7 @@ RunRow Results::row(std::uint32_t run) {
 Results begin_results(const Campaign& campaign, const fs::path& folder, bool resume,
                       const Shard& shard) {
     const fs::path path = folder / Results::kFileName;
-    std::error_code ignored;
-    const bool there = fs::exists(path, ignored);
+    const bool there = is_there(path);
     if (there && !resume) {
         throw InputError(path.string() +
                          ": is there already: --resume goes on with it, --out puts new results "

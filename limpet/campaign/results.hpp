@@ -10,17 +10,35 @@
 
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/campaign/database.hpp"
-#include "limpet/campaign/shard.hpp"
 #include "limpet/simulation/metrics.hpp"
 
 namespace limpet::campaign {
+
+/// A part of a campaign's runs, one after the other: a part spans the grids as evenly as the whole,
+/// since neighbouring runs stand on neighbouring points.
+struct Shard {
+    std::uint32_t part = 1;  ///< 1..parts
+    std::uint32_t parts = 1;
+
+    /// The first run of it, and the first after it.
+    [[nodiscard]] std::uint32_t begin(std::uint32_t runs) const;
+    [[nodiscard]] std::uint32_t end(std::uint32_t runs) const;
+    [[nodiscard]] bool whole() const { return parts == 1; }
+    friend bool operator==(const Shard&, const Shard&) = default;
+};
+
+/// @param text  "2/8"
+/// @throws InputError saying what is allowed
+[[nodiscard]] Shard parse_shard(const std::string& text);
+/// @return "2/8"
+[[nodiscard]] std::string shard_text(const Shard& shard);
 
 /// What is kept of a run. Nothing in it depends on the machine, the number of workers or the time.
 struct RunRow {
     std::uint32_t run = 0;
     std::uint64_t seed = 0;
     std::vector<SampledValue> sample;
-    /// Name of an Outcome; kFault when the flight broke off by a fault of ours, kNoFlight when a
+    /// Name of an Outcome; kFault when a fault of Limpet ended the flight, kNoFlight when a
     /// PX4 did not begin it.
     std::string outcome;
     std::string reason;
@@ -30,10 +48,17 @@ struct RunRow {
     double simulated_s = 0.0;
     long long physics_steps = 0;
     std::string state_hash;  ///< as hash_text() writes it
-    std::string autopilot;   ///< on PX4s: who answered, as it told
+    std::string autopilot;   ///< on PX4s: what the autopilot reported itself to be
 };
 inline constexpr const char* kFault = "fault";
 inline constexpr const char* kNoFlight = "no_flight";
+
+/// Whether a run ended with `outcome`, and so by the truth (core's true_end.hpp).
+[[nodiscard]] bool ended_as(const RunRow& row, Outcome outcome);
+/// A success: an outcome that the campaign names, borne out by the truth.
+[[nodiscard]] bool is_success(const Campaign& campaign, const RunRow& row);
+/// The same as a condition on the columns of the table `runs`.
+[[nodiscard]] std::string success_sql(const Campaign& campaign);
 
 /// By what two are known to fly the same: digests of the campaign's file and of the scenarios
 /// spelled out, and Limpet's version.
@@ -78,7 +103,7 @@ public:
     [[nodiscard]] Identity identity() const;
     /// What these results are to hold in the end.
     [[nodiscard]] const Shard& shard() const { return shard_; }
-    /// What flies as many runs as it needs, not as many as the campaign says: "a search for a rare
+    /// What determines its number of runs itself, in place of the campaign: "a search for a rare
     /// event", "a study"; null: neither.
     [[nodiscard]] const char* of_its_own_length() const;
     /// @throws InputError when `campaign` would not fly what was begun here, or not this part of it
@@ -108,12 +133,22 @@ private:
     std::optional<SQLite::Statement> insert_;
 };
 
-/// The results in a folder: new ones, or, when asked to resume, those that are there.
-/// @throws InputError when there are some and nobody asked to resume, or `campaign` is not theirs
+/// The results in a folder: new ones, or, with `resume`, those that are there.
+/// @throws InputError when there are some and `resume` is not set, or `campaign` is not theirs
 [[nodiscard]] Results begin_results(const Campaign& campaign, const std::filesystem::path& folder,
                                     bool resume, const Shard& shard = {});
 
 /// @return 16 hexadecimal digits
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
+
+/// Makes one file of results of those that hold parts of a campaign, with the rows that the
+/// campaign flown in one go has; whole, or not at all.
+/// @param parts   files of results, in any order
+/// @param target  file to write
+/// @return rows in it
+/// @throws InputError one line: the target is there, two parts are of different campaigns, hold the
+///         same run, or runs are missing
+std::uint32_t merge_results(const std::vector<std::filesystem::path>& parts,
+                            const std::filesystem::path& target);
 
 }  // namespace limpet::campaign

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/random.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::campaign {
@@ -155,6 +154,21 @@ std::vector<SampledValue> sample_at(const std::vector<VariedKey>& keys,
         }
     }
     return sample;
+}
+
+void require_no_grid(const std::vector<VariedKey>& keys, const char* what) {
+    for (const VariedKey& key : keys) {
+        if (key.spread == Spread::grid && key.values.size() > 1) {
+            throw InputError(fmt::format(
+                "{}: parameters.{}: a grid has no probabilities: for {} write choice or uniform in "
+                "its place, or a single value",
+                key.place, key.key, what));
+        }
+    }
+}
+
+std::uint64_t noise_seed(RandomStream& random) {
+    return static_cast<std::uint64_t>(random.uniform() * 0x1.0p53);
 }
 
 std::string value_text(const SampledValue& value) {

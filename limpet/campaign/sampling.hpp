@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "limpet/core/random.hpp"
+
 namespace limpet::campaign {
 
 /// How the values of a varied key are spread.
@@ -62,6 +64,15 @@ struct VariedKey {
 /// @param normals  one a drawn key, in their order
 [[nodiscard]] std::vector<SampledValue> sample_at(const std::vector<VariedKey>& keys,
                                                   const std::vector<double>& normals);
+
+/// Checks before anything flies that no key is a grid of several values, which has no
+/// probabilities.
+/// @param what  is to be flown: "a study"
+/// @throws InputError one line: the key and what is wrong with it
+void require_no_grid(const std::vector<VariedKey>& keys, const char* what);
+
+/// @return seed of a noise that nothing has drawn yet: a whole number that a double holds
+[[nodiscard]] std::uint64_t noise_seed(RandomStream& random);
 
 /// @return "1.1" or "porous_concrete", as YAML reads it back to the same bits
 [[nodiscard]] std::string value_text(const SampledValue& value);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/shard.hpp"
-
 #include <fmt/format.h>
 
 #include <charconv>
 
+#include "limpet/campaign/results.hpp"
 #include "limpet/core/errors.hpp"
 
 namespace limpet::campaign {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/success.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "limpet/campaign/results.hpp"
 #include "limpet/core/signals/true_end.hpp"
 
 namespace limpet::campaign {

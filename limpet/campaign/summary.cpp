@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpet/campaign/success.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
@@ -121,16 +120,16 @@ std::vector<MetricSummary> summarise_metrics(SQLite::Database& database) {
 }
 
 std::vector<std::string> autopilots_of(Results& results) {
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     if (results.campaign().on_px4) {
         SQLite::Statement select(results.database(),
                                  "SELECT DISTINCT autopilot FROM runs WHERE autopilot <> '' "
                                  "ORDER BY autopilot");
         while (select.executeStep()) {
-            told.push_back(select.getColumn(0).getString());
+            reported.push_back(select.getColumn(0).getString());
         }
     }
-    return told;
+    return reported;
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ struct CampaignSummary {
     std::string description;
     std::string scenario;
     std::string version;                  ///< of the Limpet that flew it
-    std::vector<std::string> autopilots;  ///< on PX4s: who flew, as they told
+    std::vector<std::string> autopilots;  ///< on PX4s: what they reported to be
     std::uint64_t seed = 0;
     std::uint32_t runs = 0;      ///< planned
     std::uint32_t finished = 0;  ///< flown
@@ -79,5 +79,15 @@ struct CampaignSummary {
 /// @throws InputError for an unwritable folder, or when gnuplot is not installed
 std::vector<std::filesystem::path> draw_summary(const CampaignSummary& summary,
                                                 const std::filesystem::path& folder);
+
+/// Writes cells.html: a table of what became of each cell of two grids, the last two of the
+/// campaign's, one table for each combination of its other grids; a cell says its outcome, and
+/// pressed why and the command that flies it again. One file that needs nothing else.
+/// @param database  of the results, as the page's commands name it
+/// @param folder    made when it is not there
+/// @return nothing for a campaign without two grids, or whose grids are longer than a page
+/// @throws InputError for an unwritable folder
+[[nodiscard]] std::optional<std::filesystem::path> write_cells(
+    Results& results, const std::filesystem::path& database, const std::filesystem::path& folder);
 
 }  // namespace limpet::campaign

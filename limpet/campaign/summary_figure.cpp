@@ -19,12 +19,9 @@ using Mark = draw::ChartSeries::Mark;
 constexpr std::size_t kMostPanels = 8;
 constexpr int kFitPoints = 120;
 
-void append(draw::ChartSeries& series, double x, const Proportion& proportion) {
+void add(draw::ChartSeries& series, double x, const Proportion& proportion) {
     const Interval interval = proportion.interval();
-    series.x.push_back(x);
-    series.y.push_back(proportion.probability());
-    series.low.push_back(interval.low);
-    series.high.push_back(interval.high);
+    series.add(x, proportion.probability(), {interval.low, interval.high});
 }
 
 draw::ChartPanel outcomes(const CampaignSummary& summary) {
@@ -32,20 +29,10 @@ draw::ChartPanel outcomes(const CampaignSummary& summary) {
         .y_label = "share of the runs", .y_range = draw::Range{0.0, 1.0}, .height_px = 220.0};
     draw::ChartSeries shares{.mark = Mark::bars};
     for (const EndingCount& ending : summary.outcomes) {
-        append(shares, static_cast<double>(panel.categories.size()), ending.proportion);
-        panel.categories.push_back(record::words(ending.outcome));
+        add(shares, panel.category(record::words(ending.outcome)), ending.proportion);
     }
     panel.series = {shares};
     return panel;
-}
-
-draw::ChartSeries fitted(const LogisticFit& fit, const draw::Range& range) {
-    draw::ChartSeries curve{.colour = draw::colours::kOrange};
-    for (int i = 0; i <= kFitPoints; ++i) {
-        curve.x.push_back(range.low + (range.high - range.low) * i / kFitPoints);
-        curve.y.push_back(fit.probability(curve.x.back()));
-    }
-    return curve;
 }
 
 /// Of a key's row in the parameter tables; empty for what is no number there.
@@ -92,7 +79,7 @@ draw::ChartPanel success_against(const KeySummary& key) {
             panel.categories.push_back(group.label);
         }
         if (group.proportion.runs > 0) {
-            append(points, key.named ? static_cast<double>(i) : group.middle(), group.proportion);
+            add(points, key.named ? static_cast<double>(i) : group.middle(), group.proportion);
         }
     }
     if (!key.named) {
@@ -100,7 +87,9 @@ draw::ChartPanel success_against(const KeySummary& key) {
         const double air = high > low ? 0.04 * (high - low) : 0.5;
         panel.x_range = draw::Range{low - air, high + air};
         if (key.fit) {
-            panel.series.push_back(fitted(*key.fit, *panel.x_range));
+            panel.series.push_back({.colour = draw::colours::kOrange});
+            panel.series.back().add(*panel.x_range, kFitPoints,
+                                    [&](double x) { return key.fit->probability(x); });
         }
     }
     panel.series.push_back(points);

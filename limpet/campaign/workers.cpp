@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "limpet/campaign/columns.hpp"
-#include "limpet/campaign/fliers.hpp"
 #include "limpet/campaign/ledger.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
@@ -32,20 +31,20 @@ std::vector<std::pair<std::string, std::string>> columns_of(const Campaign& camp
     return columns;
 }
 
-void require_same(const Results& results, const RunRow& told, const RunRow& flown) {
-    if (told.state_hash != flown.state_hash) {
+void require_same(const Results& results, const RunRow& stored, const RunRow& flown) {
+    if (stored.state_hash != flown.state_hash) {
         throw InternalError(fmt::format(
             "run {} flew to the hash {}, its row says {}: this Limpet ({}) is not the one that "
             "flew the campaign ({}), or a flight depends on more than its seed",
-            told.run, flown.state_hash, told.state_hash, kVersion, results.version()));
+            stored.run, flown.state_hash, stored.state_hash, kVersion, results.version()));
     }
-    const auto was = columns_of(results.campaign(), told);
+    const auto was = columns_of(results.campaign(), stored);
     const auto is = columns_of(results.campaign(), flown);
     for (std::size_t i = 0; i < is.size(); ++i) {
         if (is[i] != was[i]) {
             throw InternalError(
-                fmt::format("run {} flew to the row's hash with {} = {}, its row says {}", told.run,
-                            is[i].first, is[i].second, was[i].second));
+                fmt::format("run {} flew to the row's hash with {} = {}, its row says {}",
+                            stored.run, is[i].first, is[i].second, was[i].second));
         }
     }
 }
@@ -69,6 +68,14 @@ RunRow row_to_fly(const Campaign& campaign, std::uint32_t run) {
     return row;
 }
 
+RunRow row_to_fly(const Campaign& campaign, std::uint32_t run, const std::vector<double>& normals) {
+    RunRow row;
+    row.run = run;
+    row.seed = campaign.seed;
+    row.sample = sample_at(campaign.keys, normals);
+    return row;
+}
+
 void fill(RunRow& row, const simulation::FlightResult& result) {
     row.outcome = to_string(result.outcome);
     row.reason = result.reason;
@@ -80,9 +87,9 @@ void fill(RunRow& row, const simulation::FlightResult& result) {
     row.state_hash = hash_text(result.state_hash);
 }
 
-RunRow fly_run(const Campaign& campaign, std::uint32_t run, const std::atomic<bool>* stop) {
+RunRow fly_run(const Campaign& campaign, std::uint32_t run) {
     RunRow row = row_to_fly(campaign, run);
-    fly_row(campaign, row, {}, stop);
+    fly_row(campaign, row);
     return row;
 }
 
@@ -97,12 +104,9 @@ void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise,
     }
 }
 
-Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
-    Ledger ledger(results, watch);
-    {
-        const Fliers others(jobs - 1, results.campaign(), ledger, watch.break_off);
-        fly_assigned(results.campaign(), ledger, watch.break_off);
-    }
+Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch, RunPlan plan) {
+    Ledger ledger(results, watch, std::move(plan));
+    fly_all(jobs, results.campaign(), ledger, watch.break_off);
     return ledger.conclude();
 }
 

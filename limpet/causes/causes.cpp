@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpet/causes/cause_places.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/vehicle/motor.hpp"
+#include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::causes {
 namespace {
@@ -94,7 +93,7 @@ const std::vector<CauseInput>& cause_inputs() {
          .cause = Cause::arm,
          .as_simulated = 0.10,
          .prior = "0.092 … 0.13",
-         .source = "a sum over guessed components, facts.md section 1; no body beside roll's 0.05 "
+         .source = "a sum over guessed components, facts.md section 1; no body with roll's 0.05 "
                    "and yaw's "
                    "0.14 "
                    "has less",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "limpet/causes/cause_places.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/stability/map.hpp"
 #include "limpet/study/posterior.hpp"
@@ -16,7 +16,31 @@
 /// weighs the draws.
 namespace limpet::causes {
 
-/// What differs between the simulation and the vehicle, or was never told of either.
+/// Places of the inputs in a point, in the order of cause_inputs().
+enum CausePlace : Eigen::Index {
+    kLag = 0,
+    kRatio,
+    kDelay,
+    kJointX,
+    kJointZ,
+    kInertia,
+    kRateK,
+    kRateI,
+    kAttitudeP,
+    kGyro,
+    kDerivative,
+    kStiffness,
+    kDamping,
+    kCentring,
+    kTilt,
+    kMoment,
+    kCorrelation,
+    kShared,
+    kPlaces,
+};
+inline constexpr Eigen::Index kOfLoop = kMoment;  ///< those before are the loop's
+
+/// What differs between the simulation and the vehicle, or was published of neither.
 enum class Cause {
     motors,    ///< slower than Gazebo's
     delay,     ///< of the speed controllers and of the pipeline from gyro to output
@@ -53,7 +77,7 @@ using CausePoint = Eigen::VectorXd;
 /// `--set` texts that make a scenario a point.
 [[nodiscard]] stability::Overrides overrides_of(const CausePoint& point);
 
-/// What the linearised loop says of a point.
+/// The swing of a point by the linearised loop.
 struct PointSwing {
     static constexpr double kNone_1_s = -5.0;  ///< growth where nothing swings: over at once
     bool rests = false;                        ///< there is a rest to wait at
@@ -71,7 +95,7 @@ struct SwingSize {
     double metal_scatter = 0.5;
     double concrete_scatter = 0.5;
     std::size_t flights = 0;  ///< by which these were found
-    double held = 0.0;        ///< share of other flights within the 95 % that it says
+    double held = 0.0;        ///< share of other flights within its 95 %
 };
 /// Largest amplitude of the pitch in waiting for so long [deg], the middle of many flights.
 [[nodiscard]] double swing_deg(const SwingSize& size, const CausePoint& point,
@@ -80,8 +104,8 @@ struct SwingSize {
 /// against them.
 [[nodiscard]] SwingSize measure_size(std::size_t points, int jobs);
 
-/// What the paper says of the swing, or what a synthetic vehicle shows.
-struct SwingSaid {
+/// What the paper states of the swing, or what a synthetic vehicle shows.
+struct SwingStatement {
     double metal_from_deg = 5.0;     ///< "exceeding 5 deg. after 16 s"
     double metal_to_deg = 10.0;      ///< assumed: "interrupted to avoid any incident", not beyond
     double concrete_from_deg = 0.5;  ///< "oscillates", in a plot of +-10 deg (assumed)
@@ -103,7 +127,7 @@ using PriorDraws = std::vector<std::vector<CauseDraw>>;
 [[nodiscard]] PriorDraws draw_prior(std::size_t draws, std::uint64_t seed, int jobs,
                                     const std::function<void()>& between = {});
 
-/// The prior's draws weighed by what was said; it refers to them.
+/// The prior's draws, weighed by the paper's statements; refers to them.
 struct CausePosterior {
     const PriorDraws* draws = nullptr;
     std::vector<study::Weighted> weighted;  ///< one a set
@@ -111,21 +135,21 @@ struct CausePosterior {
     [[nodiscard]] std::vector<double> set_probabilities() const;
     /// That a cause takes part.
     [[nodiscard]] double probability(Cause cause) const;
-    /// Quantile over sets and draws of what `of` says of a draw.
+    /// Quantile over sets and draws of the value `of` a draw.
     [[nodiscard]] double quantile(const std::function<double(const CauseDraw&)>& of,
                                   double share) const;
 };
 [[nodiscard]] CausePosterior weigh(const PriorDraws& draws, const SwingSize& size,
-                                   const SwingSaid& said);
+                                   const SwingStatement& stated);
 
-/// A measurement that nobody has published, and how many bits it would tell of which causes take
+/// A measurement that nobody has published, and how many bits it would give on which causes take
 /// part.
 struct CauseMeasurement {
     std::string name;
     std::string accuracy;
     double bits = 0.0;
 };
-/// Best first. Draws that explain next to nothing of what was said are left out.
+/// Best first. Draws that explain next to nothing of the statements are left out.
 [[nodiscard]] std::vector<CauseMeasurement> measurements(const CausePosterior& posterior,
                                                          std::uint64_t seed, int jobs);
 

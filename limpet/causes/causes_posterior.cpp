@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "limpet/campaign/statistics.hpp"
-#include "limpet/causes/cause_places.hpp"
 #include "limpet/causes/causes.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/parallel.hpp"
@@ -34,17 +33,18 @@ double probability_between(double middle, double scatter, double from, double to
            normal_probability(std::log(from / middle) / scatter);
 }
 
-double likelihood(const CauseDraw& draw, const SwingSize& size, const SwingSaid& said) {
+double likelihood(const CauseDraw& draw, const SwingSize& size, const SwingStatement& stated) {
     if (!draw.swing.rests || !draw.simulated.rests) {
         return 0.0;  // both waited
     }
     const double metal = swing_deg(size, draw.point, draw.swing, kMetalWait_s);
     const double concrete = swing_deg(size, draw.point, draw.swing, kConcreteWait_s);
     const double still = swing_deg(size, simulated(draw.point), draw.simulated, kMetalWait_s);
-    return probability_between(metal, size.metal_scatter, said.metal_from_deg, said.metal_to_deg) *
-           probability_between(concrete, size.concrete_scatter, said.concrete_from_deg,
-                               said.concrete_to_deg) *
-           normal_probability(std::log(said.simulated_to_deg / still) / size.metal_scatter);
+    return probability_between(metal, size.metal_scatter, stated.metal_from_deg,
+                               stated.metal_to_deg) *
+           probability_between(concrete, size.concrete_scatter, stated.concrete_from_deg,
+                               stated.concrete_to_deg) *
+           normal_probability(std::log(stated.simulated_to_deg / still) / size.metal_scatter);
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ std::vector<double> CausePosterior::set_probabilities() const {
         all.push_back(one.evidence());
         sum += all.back();
     }
-    require(sum > 0.0, "draws that explain something of what was said");
+    require(sum > 0.0, "draws that explain something of the statements");
     for (double& one : all) {
         one /= sum;
     }
@@ -116,12 +116,12 @@ double CausePosterior::quantile(const std::function<double(const CauseDraw&)>& o
     return together.quantile(values, share);
 }
 
-CausePosterior weigh(const PriorDraws& draws, const SwingSize& size, const SwingSaid& said) {
+CausePosterior weigh(const PriorDraws& draws, const SwingSize& size, const SwingStatement& stated) {
     CausePosterior posterior{.draws = &draws, .weighted = {}};
     for (const std::vector<CauseDraw>& set : draws) {
         study::Weighted& own = posterior.weighted.emplace_back();
         for (const CauseDraw& draw : set) {
-            own.weights.push_back(likelihood(draw, size, said));
+            own.weights.push_back(likelihood(draw, size, stated));
         }
     }
     return posterior;
@@ -187,7 +187,7 @@ std::vector<CauseMeasurement> measurements(const CausePosterior& posterior, std:
             measured.push_back(one.of(i) + one.deviation * random.normal());
             blind.push_back(random.uniform());
         }
-        // What draws so few and so weighted tell by chance alone is taken off.
+        // Less what so few, weighted draws give by chance alone.
         const double bits = study::information_bits(sets, measured, weights, kBins) -
                             study::information_bits(sets, blind, weights, kBins);
         all.push_back({one.name, one.accuracy, std::max(0.0, bits)});

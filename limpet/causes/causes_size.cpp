@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "limpet/campaign/statistics.hpp"
-#include "limpet/causes/cause_places.hpp"
 #include "limpet/causes/causes.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/parallel.hpp"
@@ -85,8 +84,8 @@ SwingSize measure_size(std::size_t points, int jobs) {
                 one.swing.rests && one.flown_deg > kLeast_deg && one.flown_deg < kMost_deg &&
                 swing_deg(SwingSize{}, one.point, one.swing, one.waited_s) < kMost_deg;
             if ((k % 2 == 0) == metal && k / (2 * kSeeds) % 2 == half && counts) {
-                const double said = swing_deg(size, one.point, one.swing, one.waited_s);
-                logs.push_back(std::log(one.flown_deg / said));
+                const double expected = swing_deg(size, one.point, one.swing, one.waited_s);
+                logs.push_back(std::log(one.flown_deg / expected));
             }
         }
         return logs;

@@ -33,7 +33,7 @@ mavlink::OffboardOptions options_of(const CompanionConfig& config) {
             .sets_origin = config.sets_origin};
 }
 
-/// Dry, the vehicle is carried: an autopilot that does as it is told stands in for the real one.
+/// Dry, the vehicle is carried: an autopilot that obeys stands in for the real one.
 SessionSetup setup_of(const CompanionConfig& config, bool dry_run) {
     return {.task = config.task,
             .guidance = config.guidance,
@@ -43,6 +43,13 @@ SessionSetup setup_of(const CompanionConfig& config, bool dry_run) {
 }
 
 }  // namespace
+
+std::string lateness_text(const Lateness& lateness) {
+    return fmt::format(
+        "late by {:.2f} ms (median), {:.2f} ms (99 %), {:.2f} ms (99.9 %), {:.1f} ms (worst)",
+        1e3 * lateness.quantile_s(0.5), 1e3 * lateness.quantile_s(0.99),
+        1e3 * lateness.quantile_s(0.999), 1e3 * lateness.largest_s());
+}
 
 std::string RefusalWatch::reasons(const mavlink::Refusals& refusals, double time_s,
                                   double limit_s) {
@@ -160,7 +167,7 @@ Mover Companion::mover() const {
 
 void Companion::forward_pose(double time_s) {
     const double period_s = 1.0 / config_.limits.pose_rate_Hz;
-    if (dry_run_ || pose_.time_s <= forwarded_pose_s_ ||
+    if (dry_run_ || offboard_.awaits_origin(time_s) || pose_.time_s <= forwarded_pose_s_ ||
         time_s < forwarded_s_ + period_s - kRounding_s) {
         return;
     }
@@ -223,10 +230,10 @@ void Companion::feed(double time_s) {
     }
 }
 
-/// Until all who must have heard it have.
+/// Until all who must know have received it.
 void Companion::conclude(bool was_leaving, double time_s) {
-    const bool tells = !dry_run_ && (session_.flew() || session_.left_by() == Action::hold);
-    over_ = !tells || (was_leaving && time_s - session_.since_s() >= config_.limits.hand_back_s);
+    const bool reports = !dry_run_ && (session_.flew() || session_.left_by() == Action::hold);
+    over_ = !reports || (was_leaving && time_s - session_.since_s() >= config_.limits.hand_back_s);
     result_.end = session_.end();
     result_.outcome = session_.outcome();
     result_.reason = session_.reason();
@@ -259,10 +266,10 @@ void Companion::actuate(double time_s) {
 /// To the sensors' wire: the state of guidance, and at last that the mission is over.
 void Companion::tell(double time_s) {
     constexpr double kEvery_s = 0.1;
-    if (dry_run_ || !wires_.sensors || time_s - told_s_ < kEvery_s - kRounding_s) {
+    if (dry_run_ || !wires_.sensors || time_s - reported_s_ < kEvery_s - kRounding_s) {
         return;
     }
-    told_s_ = time_s;
+    reported_s_ = time_s;
     if (phase() == SessionPhase::flying) {
         const auto boot_ms = static_cast<std::uint32_t>(std::llround(time_s * 1e3));
         send_sensors(mavlink::guidance_state(static_cast<int>(memory().state), boot_ms));
@@ -310,22 +317,22 @@ void Companion::report(const Event& event) {
 
 void Companion::say_changes(double time_s) {
     constexpr double kAnswer_s = 0.5;
-    if (offboard_.report().texts != told_texts_) {
-        told_texts_ = offboard_.report().texts;
+    if (offboard_.report().texts != shown_texts_) {
+        shown_texts_ = offboard_.report().texts;
         watch_.line(time_s, fmt::format("the autopilot says: {}", offboard_.report().text));
     }
-    if (pose_watch_.doubt() != told_doubt_) {
-        told_doubt_ = pose_watch_.doubt();
+    if (pose_watch_.doubt() != shown_doubt_) {
+        shown_doubt_ = pose_watch_.doubt();
         watch_.line(time_s, fmt::format("motion capture: {}",
-                                        doubt_text(told_doubt_, pose_watch_.away_m())));
+                                        doubt_text(shown_doubt_, pose_watch_.away_m())));
     }
     const bool deaf = session_.drives_mechanism() && phase() == SessionPhase::flying &&
                       time_s - mechanism_.asked_s() > kAnswer_s &&
                       inputs_.mechanism_s() < mechanism_.asked_s();
-    if (deaf && !told_deaf_) {
+    if (deaf && !shown_deaf_) {
         watch_.line(time_s, "pump and valve do not answer");
     }
-    told_deaf_ = deaf;
+    shown_deaf_ = deaf;
 }
 
 }  // namespace limpet::companion

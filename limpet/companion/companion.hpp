@@ -11,15 +11,19 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/companion/dry_run.hpp"
 #include "limpet/companion/inputs.hpp"
-#include "limpet/companion/lateness.hpp"
-#include "limpet/companion/mechanism_out.hpp"
 #include "limpet/companion/session.hpp"
 #include "limpet/companion/wires.hpp"
 #include "limpet/core/signals/pose_watch.hpp"
 #include "limpet/mavlink/offboard.hpp"
 #include "limpet/record/recorder.hpp"
+#include "limpet/wire/histogram.hpp"
 
 namespace limpet::companion {
+
+/// How late ticks began: exact to a twentieth, up to 33 minutes.
+using Lateness = wire::Histogram<16, 31>;
+/// "late by 0.06 ms (median), 0.20 ms (99 %), 1.10 ms (99.9 %), 2.4 ms (worst)".
+[[nodiscard]] std::string lateness_text(const Lateness& lateness);
 
 struct CompanionResult {
     CompanionEnd end = CompanionEnd::absent;
@@ -49,12 +53,12 @@ private:
 /// Guidance next to a real autopilot: the same object code as in the simulation, readings from
 /// wires, set-points to a wire. When it flies and when it hands back is the session's business
 /// (session.hpp); here are its wires. After the session has handed back, it goes on for hand_back_s
-/// until all who must have heard it have. Time is injected; the loop around it (run.hpp) has the
+/// until all who must know have received it. Time is injected; the loop around it (run.hpp) has the
 /// clock.
 class Companion {
 public:
-    /// @param dry_run  hears all, sends nothing to autopilot and mechanism, says what it would do;
-    ///                 the pose is motion capture's and no autopilot is needed
+    /// @param dry_run  receives all, sends nothing to autopilot and mechanism, prints what it
+    ///                 would do; the pose is motion capture's and no autopilot is needed
     /// @param recorder  nullptr: no recording; else of readings as they come, the autopilot's pose,
     ///                  set-points, guidance, events, no truth; times are seconds since the start.
     ///                  Config, wires and recorder outlive the companion.
@@ -115,12 +119,12 @@ private:
     bool over_ = false;
     double forwarded_s_ = -1e9;  ///< when a pose was due to go on
     double forwarded_pose_s_ = -1.0;
-    double told_s_ = -1e9;  ///< to the sensors' wire
+    double reported_s_ = -1e9;  ///< to the sensors' wire
     Readings recorded_;
     double recorded_estimate_s_ = 0.0;
-    std::uint64_t told_texts_ = 0;
-    PoseDoubt told_doubt_ = PoseDoubt::none;
-    bool told_deaf_ = false;  ///< that the mechanism does not answer
+    std::uint64_t shown_texts_ = 0;
+    PoseDoubt shown_doubt_ = PoseDoubt::none;
+    bool shown_deaf_ = false;  ///< that the mechanism does not answer
     CompanionResult result_;
 };
 

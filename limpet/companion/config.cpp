@@ -26,21 +26,17 @@ using scenario::YamlNode;
 using wire::Medium;
 
 constexpr const char* kAutopilotAddress = "udp:127.0.0.1:14540";  // PX4's offboard port
-constexpr const char* kSensorsAddress = "udp:127.0.0.1:14600";    // assumed: free beside PX4's
+constexpr const char* kSensorsAddress = "udp:127.0.0.1:14600";    // assumed: none of PX4's
 
 /// @return what a node says, of `words`
 template <class Choice>
 Choice chosen(const YamlNode& node,
               std::initializer_list<std::pair<std::string_view, Choice>> words) {
-    const std::string word = read_text(node);
     std::vector<std::string_view> names;
     for (const auto& [name, choice] : words) {
-        if (name == word) {
-            return choice;
-        }
         names.push_back(name);
     }
-    fail(node, fmt::format("\"{}\" is none of {}", scenario::shown(word), fmt::join(names, ", ")));
+    return (words.begin() + read_one_of(node, names))->second;
 }
 
 wire::TransportAddress address(const YamlNode& node, std::initializer_list<Medium> media,
@@ -144,12 +140,12 @@ void Reader::read_mission() {
     using scenario::Mission;
     if (const YamlNode* mission = wanted("mission")) {
         config_.mission = read_text(*mission);
-        const auto asked =
+        const auto flown =
             chosen<Mission>(*mission, {{"hover", Mission::hover},
                                        {"perch", Mission::perch},
                                        {"perch_and_take_off", Mission::perch_and_take_off}});
-        config_.task = {.perch = asked != Mission::hover,
-                        .take_off = asked == Mission::perch_and_take_off,
+        config_.task = {.perch = flown != Mission::hover,
+                        .take_off = flown == Mission::perch_and_take_off,
                         .hover_s = config_.limits.hover_s};
     }
 }
@@ -265,7 +261,7 @@ void Reader::read_mechanism() {
     }
 }
 
-/// After all that may need it. One that is named and not needed is told how the mission goes.
+/// After all that may need it. One that is named and not needed receives the state of the mission.
 void Reader::read_sensors() {
     read_rows(find("sensors"), {}, {"address"});
     if (find("sensors.address") != nullptr || config_.pose_source == PoseSource::mavlink ||

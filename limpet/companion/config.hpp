@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "limpet/companion/parameters.hpp"
@@ -67,7 +66,7 @@ struct CompanionConfig {
     int real_time_priority = 20;  ///< of the loop, SCHED_FIFO; 0: an ordinary one
 
     std::filesystem::path signing_key_file;      ///< empty: unsigned
-    std::filesystem::path signing_state_folder;  ///< its time stamps; empty: beside the key
+    std::filesystem::path signing_state_folder;  ///< its time stamps; empty: next to the key
 };
 
 /// Numbers of section `motion_capture`: how it lies in W and the rigid body on the vehicle.

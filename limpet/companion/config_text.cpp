@@ -42,7 +42,7 @@ std::vector<std::string> describe(const CompanionConfig& config) {
     std::vector<std::string> lines = {
         fmt::format("mission     {} with {}", config.mission, config.vehicle),
         fmt::format("autopilot   {}, system {}; {}", to_text(config.autopilot), config.system,
-                    config.asks_for_mode ? "arms it and asks for OFFBOARD"
+                    config.asks_for_mode ? "arms it and requests OFFBOARD"
                                          : "waits until an operator flies it to before the wall "
                                            "and chooses OFFBOARD"),
         pose_text(config),
@@ -63,7 +63,7 @@ std::vector<std::string> describe(const CompanionConfig& config) {
                                           : "key of " + config.signing_key_file.string()));
     lines.push_back(config.real_time_priority == 0
                         ? "loop        at ordinary priority, as its file wants"
-                        : fmt::format("loop        asks for SCHED_FIFO {} and locked memory",
+                        : fmt::format("loop        requests SCHED_FIFO {} and locked memory",
                                       config.real_time_priority));
     lines.push_back(
         fmt::format("speeds      docks at {:g} m/s from {:g} m, {} attempts, retreats at {:g} m/s",

@@ -83,16 +83,16 @@ void PoseEstimate::update(const Sample<PoseReading>& pose) {
 
 void DryRun::tell(double time_s, const guidance::PerchingMemory& memory) {
     const Setpoint& now = memory.setpoint;
-    const auto line = [&](std::string& told, const std::string& text) {
-        if (text != told) {
+    const auto line = [&](std::string& last, const std::string& text) {
+        if (text != last) {
             watch_.line(time_s, text);
-            told = text;
+            last = text;
         }
     };
     line(state_, fmt::format("state     {}", to_string(memory.state)));
-    if (!told_ || differs(now, *told_)) {
+    if (!last_ || differs(now, *last_)) {
         watch_.line(time_s, "set-point " + motion_text(now));
-        told_ = now;
+        last_ = now;
     }
     line(motors_, fmt::format("motors    {}", now.armed ? "on" : "off"));
     line(pump_, fmt::format("pump      {}", now.pump_on ? "on" : "off"));

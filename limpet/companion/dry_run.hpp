@@ -27,7 +27,7 @@ private:
 };
 
 /// Says what guidance would have done, a line a change: states, set-points that differ from the one
-/// told last by 0.1 m, 0.1 m/s, 5 deg or 0.05 of thrust, motors, pump, valve.
+/// reported last by 0.1 m, 0.1 m/s, 5 deg or 0.05 of thrust, motors, pump, valve.
 class DryRun {
 public:
     explicit DryRun(CompanionWatch watch) : watch_(std::move(watch)) {}
@@ -36,8 +36,8 @@ public:
 
 private:
     CompanionWatch watch_;
-    std::optional<Setpoint> told_;
-    std::string state_, motors_, pump_, valve_;  ///< lines told last
+    std::optional<Setpoint> last_;
+    std::string state_, motors_, pump_, valve_;  ///< lines reported last
 };
 
 }  // namespace limpet::companion

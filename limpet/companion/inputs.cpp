@@ -21,27 +21,27 @@ constexpr int kMostPieces = 64;  ///< of one wire in one go: a flood must not st
 template <class Each>
 void drain(wire::Transport* wire, const Each& each) {
     if (wire != nullptr) {
-        std::array<std::byte, 512> room;
-        wire::drain(*wire, room, kMostPieces, [&each](std::span<const std::byte> bytes) {
+        std::array<std::byte, 512> buffer;
+        wire::drain(*wire, buffer, kMostPieces, [&each](std::span<const std::byte> bytes) {
             std::for_each(bytes.begin(), bytes.end(), each);
         });
     }
 }
 
-template <class Hear>
-void drain(mavlink::Link& link, Hear&& hear) {
+template <class Take>
+void drain(mavlink::Link& link, Take&& take) {
     for (int count = 0; count < mavlink::kFramesAtOnce; ++count) {
         const auto frame = link.receive();
         if (!frame) {
             return;
         }
-        hear(*frame);
+        take(*frame);
     }
 }
 
 }  // namespace
 
-void Inputs::hear_readings(const mavlink::Frame& frame, ReadingSource wire, double time_s) {
+void Inputs::take_readings(const mavlink::Frame& frame, ReadingSource wire, double time_s) {
     if (config_.lidar_source == wire) {
         const auto range = mavlink::decode<mavlink::DistanceSensor>(frame);
         if (range && range->id <= 1) {
@@ -63,7 +63,7 @@ void Inputs::hear_readings(const mavlink::Frame& frame, ReadingSource wire, doub
     }
 }
 
-void Inputs::hear_battery(const mavlink::Frame& frame, double time_s) {
+void Inputs::take_battery(const mavlink::Frame& frame, double time_s) {
     const auto battery = mavlink::decode<mavlink::BatteryStatus>(frame);
     if (!battery || battery->battery_remaining < 0) {
         return;
@@ -79,7 +79,7 @@ void Inputs::hear_battery(const mavlink::Frame& frame, double time_s) {
                           .remaining = 1e-2 * battery->battery_remaining}};
 }
 
-void Inputs::hear_pose(const mavlink::Frame& frame, double time_s) {
+void Inputs::take_pose(const mavlink::Frame& frame, double time_s) {
     const auto odometry = config_.pose_source == PoseSource::mavlink
                               ? mavlink::decode<mavlink::Odometry>(frame)
                               : std::nullopt;
@@ -127,9 +127,9 @@ PoseReport Inputs::pose_report(const Wires& wires) const {
     return report;
 }
 
-void Inputs::hear_sensors(const mavlink::Frame& frame, double time_s) {
-    hear_readings(frame, ReadingSource::mavlink, time_s);
-    hear_pose(frame, time_s);
+void Inputs::take_sensors(const mavlink::Frame& frame, double time_s) {
+    take_readings(frame, ReadingSource::mavlink, time_s);
+    take_pose(frame, time_s);
     if (config_.mechanism == MechanismWire::mavlink) {
         const auto ack = mavlink::decode<mavlink::CommandAck>(frame);
         if (ack && ack->command == mavlink::MavCmd::do_set_actuator) {
@@ -139,7 +139,7 @@ void Inputs::hear_sensors(const mavlink::Frame& frame, double time_s) {
     }
 }
 
-void Inputs::hear_line(const devices::MechanismLine& line, double time_s) {
+void Inputs::take_line(const devices::MechanismLine& line, double time_s) {
     if (line.pump_on) {
         mechanism_s_ = time_s;
     }
@@ -159,12 +159,12 @@ void Inputs::poll(Wires& wires, mavlink::Offboard& offboard, double time_s) {
         offboard.hear(frame, time_s);
         if (frame.system ==
             config_.system) {  // our vehicle's, sensors that it passes on among them
-            hear_readings(frame, ReadingSource::autopilot, time_s);
-            hear_battery(frame, time_s);
+            take_readings(frame, ReadingSource::autopilot, time_s);
+            take_battery(frame, time_s);
         }
     });
     if (wires.sensors) {
-        drain(*wires.sensors, [&](const mavlink::Frame& frame) { hear_sensors(frame, time_s); });
+        drain(*wires.sensors, [&](const mavlink::Frame& frame) { take_sensors(frame, time_s); });
     }
     if (wires.motion_capture) {
         // In the first moments a pose may have been taken before our clock began.
@@ -172,7 +172,7 @@ void Inputs::poll(Wires& wires, mavlink::Offboard& offboard, double time_s) {
             readings_.motion_capture = *pose;
         }
     }
-    const auto hear_lidar = [time_s](const auto& wire, devices::TfminiParser& parser,
+    const auto take_lidar = [time_s](const auto& wire, devices::TfminiParser& parser,
                                      Sample<RangeReading>& into) {
         drain(wire.get(), [&](std::byte byte) {
             if (const auto frame = parser.parse(byte)) {
@@ -180,11 +180,11 @@ void Inputs::poll(Wires& wires, mavlink::Offboard& offboard, double time_s) {
             }
         });
     };
-    hear_lidar(wires.lidar_left, left_, readings_.lidar_left);
-    hear_lidar(wires.lidar_right, right_, readings_.lidar_right);
+    take_lidar(wires.lidar_left, left_, readings_.lidar_left);
+    take_lidar(wires.lidar_right, right_, readings_.lidar_right);
     drain(wires.mechanism.get(), [&](std::byte byte) {
         if (const auto line = lines_.parse(byte)) {
-            hear_line(*line, time_s);
+            take_line(*line, time_s);
         }
     });
 }

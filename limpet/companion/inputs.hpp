@@ -47,12 +47,12 @@ public:
     [[nodiscard]] PoseReport pose_report(const Wires& wires) const;
 
 private:
-    void hear_pose(const mavlink::Frame& frame, double time_s);
-    void hear_sensors(const mavlink::Frame& frame, double time_s);
+    void take_pose(const mavlink::Frame& frame, double time_s);
+    void take_sensors(const mavlink::Frame& frame, double time_s);
     /// @param wire  by which it came
-    void hear_readings(const mavlink::Frame& frame, ReadingSource wire, double time_s);
-    void hear_battery(const mavlink::Frame& frame, double time_s);
-    void hear_line(const devices::MechanismLine& line, double time_s);
+    void take_readings(const mavlink::Frame& frame, ReadingSource wire, double time_s);
+    void take_battery(const mavlink::Frame& frame, double time_s);
+    void take_line(const devices::MechanismLine& line, double time_s);
 
     const CompanionConfig& config_;
     Readings readings_;

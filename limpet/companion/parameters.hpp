@@ -15,7 +15,7 @@ struct CompanionLimits {
     double estimate_limit_s = 0.25;   ///< the autopilot's pose likewise
     double silence_limit_s = 3.0;     ///< without a heartbeat of the autopilot
     double late_limit_s = 0.3;        ///< a tick of ours later than this: set-points had stopped
-    double arming_s = 2.0;            ///< from asking to a heartbeat that must show it
+    double arming_s = 2.0;            ///< from the request to a heartbeat that must show it
     double agreement_m = 0.3;         ///< motion capture and estimate, before it begins
     double agreement_deg = 15.0;      ///< the same of the attitude
     double stand_speed_m_s = 0.3;     ///< of the autopilot's estimate while motors are off
@@ -26,7 +26,7 @@ struct CompanionLimits {
     double begin_tolerance_m = 0.15;  ///< ... standing as near to that
     double begin_speed_m_s = 0.1;     ///< ... slower than this
     double begin_steady_s = 2.0;      ///< ... for so long
-    double hand_back_s = 2.0;         ///< how long hold is asked for, and the end told
+    double hand_back_s = 2.0;         ///< how long hold is requested and the end reported
     double mechanism_rate_Hz = 10.0;  ///< rate of commands to pump and valve
     double hover_s = 20.0;            ///< of mission hover
 };

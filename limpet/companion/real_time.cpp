@@ -37,7 +37,7 @@ bool is_above_limits() {
            (sets[0].effective & (1U << CAP_IPC_LOCK)) != 0;
 }
 
-/// Only without a limit: under one that happens to suffice now, memory asked for later is refused,
+/// Only without a limit: under one that happens to suffice now, memory requested later is refused,
 /// and a stack that grows ends the process.
 void ask_for_memory(RealTimeAnswer& answer) {
     const rlimit none{.rlim_cur = RLIM_INFINITY, .rlim_max = RLIM_INFINITY};
@@ -71,7 +71,7 @@ RealTime::~RealTime() {
 
 std::string text_of(const RealTimeAnswer& answer) {
     if (answer.priority == 0) {
-        return "real time: not asked for (loop.real_time_priority is 0); a busy machine may hold "
+        return "real time: not requested (loop.real_time_priority is 0); a busy machine may hold "
                "it up";
     }
     const std::string priority = fmt::format("SCHED_FIFO {}", answer.priority);
@@ -96,7 +96,7 @@ std::string text_of(const RealTimeAnswer& answer) {
     }
     return fmt::format(
         "real time: refused {}; flies on {}, where a busy machine may hold it up: give it the "
-        "limits {} (docs/companion.md), or ask for neither with loop.real_time_priority=0",
+        "limits {} (docs/companion.md), or request neither with loop.real_time_priority=0",
         refused,
         answer.scheduler_error == 0 ? "with memory that may be swapped" : "at ordinary priority",
         remedy);

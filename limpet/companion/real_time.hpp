@@ -6,9 +6,9 @@
 
 namespace limpet::companion {
 
-/// What the kernel said to who asked for real time.
+/// The kernel's answer to a request for real time.
 struct RealTimeAnswer {
-    int priority = 0;                      ///< asked for; 0: nothing was
+    int priority = 0;                      ///< requested; 0: nothing was
     int scheduler_error = 0;               ///< errno; 0: granted
     int memory_error = 0;                  ///< errno; 0: granted
     std::uint64_t memory_limit_bytes = 0;  ///< where it is the limit that forbids it
@@ -23,7 +23,7 @@ struct RealTimeAnswer {
 /// Source: sched(7), mlockall(2)
 class RealTime {
 public:
-    /// @param priority  1..99; 0: asks for nothing
+    /// @param priority  1..99; 0: requests nothing
     explicit RealTime(int priority);
     ~RealTime();
     RealTime(const RealTime&) = delete;

@@ -100,7 +100,7 @@ CompanionResult run(const CompanionConfig& config, Wires& wires, const Companion
     std::optional<record::Recorder> recorder;
     if (!conduct.recording.empty()) {
         record::RecordingInfo info = recording_info(config);
-        info.beside = conduct.beside;
+        info.mirror = conduct.mirror;
         recorder.emplace(conduct.recording, info);
     }
     Companion companion(config, wires, recorder ? &*recorder : nullptr, conduct.dry_run, watch);
@@ -168,7 +168,7 @@ std::string summary_json(const CompanionConfig& config, const CompanionResult& r
          {{"median", result.lateness.quantile_s(0.5)},
           {"p99", result.lateness.quantile_s(0.99)},
           {"p99_9", result.lateness.quantile_s(0.999)},
-          {"worst", result.lateness.worst_s()}}}};
+          {"worst", result.lateness.largest_s()}}}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -22,10 +22,10 @@ struct CompanionClock {
 struct CompanionConduct {
     bool dry_run = false;
     const std::atomic<bool>* stop = nullptr;  ///< set by Ctrl-C
-    std::function<bool()> wants_end = {};     ///< asked every tick: as Ctrl-C, when it says so
+    std::function<bool()> wants_end = {};     ///< called every tick; true ends it as Ctrl-C does
     std::filesystem::path recording = {};     ///< empty: none
-    record::MessageSink* beside = nullptr;    ///< takes what the recording takes, if there is one
-    ServiceManager* manager = nullptr;        ///< hears that the loop runs
+    record::MessageSink* mirror = nullptr;    ///< takes what the recording takes, if there is one
+    ServiceManager* manager = nullptr;        ///< receives that the loop runs
 };
 
 /// Runs a companion to its end: ticks on absolute deadlines, wires looked at in between. After a

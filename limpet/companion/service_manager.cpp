@@ -61,13 +61,13 @@ void ServiceManager::stopping() {
 
 void ServiceManager::alive() {
     const auto now = std::chrono::steady_clock::now();
-    if (every_.count() > 0 && now - said_ >= every_) {
-        said_ = now;
+    if (every_.count() > 0 && now - sent_ >= every_) {
+        sent_ = now;
         say("WATCHDOG=1");
     }
 }
 
-/// What cannot be said now is said again: nothing waits for it.
+/// What cannot be sent now is sent again: nothing waits for it.
 void ServiceManager::say(const char* word) {
     if (socket_ < 0) {
         return;

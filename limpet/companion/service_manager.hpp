@@ -6,7 +6,7 @@
 
 namespace limpet::companion {
 
-/// The service manager that has started us, which starts us anew when nothing is heard of us:
+/// The service manager that has started us, which starts us anew when it receives nothing from us:
 /// systemd, by datagrams to the socket that the environment names. Says nothing where there is none
 /// and never waits. Real time, not the companion's clock.
 /// Source: sd_notify(3), sd_watchdog_enabled(3)
@@ -29,7 +29,7 @@ private:
     std::string address_;  ///< as the kernel takes it
     int socket_ = -1;
     std::chrono::steady_clock::duration every_{0};  ///< 0: no watchdog
-    std::chrono::steady_clock::time_point said_;
+    std::chrono::steady_clock::time_point sent_;
 };
 
 }  // namespace limpet::companion

@@ -10,7 +10,7 @@
 namespace limpet::companion {
 
 PerchingSession::PerchingSession(const SessionSetup& setup, CompanionWatch watch)
-    : setup_(setup), watch_(std::move(watch)), task_(setup.task), asked_(!setup.by_request) {}
+    : setup_(setup), watch_(std::move(watch)), task_(setup.task), wanted_(!setup.by_request) {}
 
 CompanionEnd ended_by(Cause cause) {
     return cause == Cause::interrupted ? CompanionEnd::interrupted : CompanionEnd::handed_back;
@@ -81,7 +81,7 @@ Signs PerchingSession::look(double time_s) const {
                 .late = late_,
                 .pose_fresh = pose_fresh(time_s),
                 .estimate_fresh = stale_estimate(time_s).empty()};
-    if (!heard(time_s)) {
+    if (!autopilot_alive(time_s)) {
         signs.autopilot = mavlink::OffboardState::silent;
     } else if (!word.offboard) {
         signs.autopilot =
@@ -109,7 +109,7 @@ Answer PerchingSession::perch(double time_s) {
     if (!inputs_.autopilot.value.armed) {
         return {false, "the autopilot is not armed: fly to before the wall first"};
     }
-    asked_ = true;
+    wanted_ = true;
     return {true, steers() || setup_.asks_for_mode ? "begins" : "begins once OFFBOARD is chosen"};
 }
 
@@ -128,8 +128,8 @@ Answer PerchingSession::take_off(double time_s) {
 
 Answer PerchingSession::abort() {
     if (phase_ != SessionPhase::flying) {
-        const bool was_asked = std::exchange(asked_, false);
-        return {was_asked, was_asked ? "not begun any more" : "there is nothing to abort"};
+        const bool was_wanted = std::exchange(wanted_, false);
+        return {was_wanted, was_wanted ? "not begun any more" : "there is nothing to abort"};
     }
     task_.take_off = false;
     if (place() == Place::at_rest) {
@@ -143,7 +143,7 @@ Answer PerchingSession::abort() {
 
 void PerchingSession::begin(double time_s) {
     go(SessionPhase::flying, time_s);
-    asked_ = interrupted_ = late_ = false;
+    wanted_ = interrupted_ = late_ = false;
     task_ = setup_.task;
     pending_ = {};
     outcome_.reset();
@@ -172,7 +172,7 @@ void PerchingSession::fly(double time_s) {
     update(setup_.guidance, task, memory_, inputs_.readings, believe(time_s), time_s, events);
     for (std::size_t k = 0; k < events.count; ++k) {
         const Event& event = events.events[k];
-        // A mission at rest ends again and again: that it cannot take off is said once.
+        // A mission at rest ends again and again: that it cannot take off is reported once.
         const bool rests = place_of(memory_) == Place::at_rest;
         if (!(outcome_ && rests && event.name == EventName::aborted)) {
             watch_.event(event);
@@ -230,19 +230,19 @@ void PerchingSession::hand_back(Action action, CompanionEnd end, std::string rea
         setpoint_.pump_on = setpoint_.valve_open = false;
     }
     go(SessionPhase::handed_back, time_s);
-    asked_ = engaged_ = false;
+    wanted_ = engaged_ = false;
     arming_ = {};
     end_ = end;
     left_by_ = action;
     reason_ = std::move(reason);
-    obstacle_ = "control was handed back: ask for perch again";
+    obstacle_ = "control was handed back: request perch again";
     watch_.line(time_s, fmt::format("{}{}", to_string(action),
                                     setpoint_.pump_on ? "; the pump stays on" : ""));
 }
 
 std::string_view PerchingSession::wanted_mode() const {
     const bool offboard = inputs_.autopilot.value.offboard;
-    if (phase_ == SessionPhase::ready && asked_ && setup_.asks_for_mode && !offboard) {
+    if (phase_ == SessionPhase::ready && wanted_ && setup_.asks_for_mode && !offboard) {
         return "OFFBOARD";
     }
     const bool holds = phase_ == SessionPhase::handed_back && left_by_ == Action::hold;
@@ -250,7 +250,7 @@ std::string_view PerchingSession::wanted_mode() const {
 }
 
 std::optional<bool> PerchingSession::wanted_armed() const {
-    // One that is not heard may be that of a simulation that has just begun anew.
+    // One that is silent may be that of a simulation that has just begun anew.
     const bool known = inputs_.autopilot.fresh(last_s_, setup_.limits.silence_limit_s);
     if (phase_ != SessionPhase::flying || !known ||
         setpoint_.armed == inputs_.autopilot.value.armed) {

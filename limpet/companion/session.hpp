@@ -16,7 +16,7 @@
 
 namespace limpet::companion {
 
-// Guidance beside an autopilot that is not ours: when it may begin, when control is handed back
+// Guidance next to an autopilot that is not ours: when it may begin, when control is handed back
 // (watchdog.hpp), what becomes of the pump. `limpet companion` feeds it from wires, the ROS node
 // from topics and services. Time is injected.
 //
@@ -25,7 +25,7 @@ namespace limpet::companion {
 //    │  └─────────────── an input went away ───────────────┘ │ │ watchdog, limits            flying
 //    │                                                       └─┼─ mission over in the air ───┘   │
 //    │                                                         ▼                                 │
-//    └─────────────────── perch asked ─────────────────── handed_back ◄─ mission over, watchdog ─┘
+//    └─────────────────── perch wanted ─────────────────── handed_back ◄─ mission over, watchdog ─┘
 //
 // Who flies by request (perch, take_off, abort) is ready again after a mission that ends in the
 // air, and one that ends at rest on the wall goes on watching the vacuum; else a mission's end
@@ -55,21 +55,21 @@ struct SessionSetup {
     guidance::PerchingTask task;
     guidance::PerchingParameters guidance;
     CompanionLimits limits;
-    bool by_request = false;     ///< begins when asked to perch, and waits for that without limit
+    bool by_request = false;     ///< begins on a request to perch, for which it waits without limit
     bool rises = false;          ///< arms, and rises off its stand, itself
-    bool asks_for_mode = false;  ///< wants OFFBOARD once perch is asked; else an operator chooses
+    bool asks_for_mode = false;  ///< wants OFFBOARD once perch is wanted; else an operator chooses
     /// Motion capture is ours to watch; false: the autopilot's business.
     bool watches_motion_capture = true;
     /// Pump and valve are ours, once the cup is known to be free.
     bool has_mechanism = true;
 };
 
-/// What is heard of the autopilot.
+/// What is received from the autopilot.
 struct AutopilotWord {
     bool connected = false;
     bool armed = false;
     bool offboard = false;
-    bool in_air = true;  ///< also where nothing tells
+    bool in_air = true;  ///< also where it is not known
 };
 
 /// What has come, stamped with the time at which it was measured.
@@ -79,7 +79,7 @@ struct SessionInputs {
     Sample<Vector3> velocity_W_m_s{.value = Vector3::Zero()};
     Sample<Vector3> rate_B_rad_s{.value = Vector3::Zero()};
     Sample<AutopilotWord> autopilot;
-    std::string mechanism;  ///< why pump and valve will not do as they are told; empty: they will
+    std::string mechanism;  ///< why pump and valve will not obey; empty: they will
     std::string waits_for;  ///< what it takes to be flown, once ready: "not armed yet"
     // Why what comes is not taken: "not signed". Empty: all is.
     std::string autopilot_refused;
@@ -95,7 +95,7 @@ struct SessionInputs {
 /// How it is watched; empty members watch nothing.
 struct CompanionWatch {
     std::function<void(const Event&)> on_event;
-    /// A line for people: what it waits for, what it does, what was said.
+    /// A line for people: what it waits for, what it does, what was received.
     std::function<void(double time_s, const std::string& text)> on_line;
 
     void event(const Event& event) const {
@@ -110,7 +110,7 @@ struct CompanionWatch {
     }
 };
 
-/// To who asked for something.
+/// The answer to a request.
 struct Answer {
     bool done = false;
     std::string message;
@@ -140,17 +140,17 @@ public:
     [[nodiscard]] SessionPhase phase() const { return phase_; }
     [[nodiscard]] double since_s() const { return phase_s_; }
     /// For a flight that has not begun yet.
-    [[nodiscard]] bool asked() const { return asked_; }
+    [[nodiscard]] bool asked() const { return wanted_; }
     [[nodiscard]] const Setpoint& setpoint() const { return setpoint_; }
     [[nodiscard]] bool streams() const {
         return phase_ == SessionPhase::ready || phase_ == SessionPhase::flying;
     }
-    /// Pump and valve are told nothing until the cup is known to be free: it may hold a vehicle
-    /// that hangs there since the last time (docs/decisions/0013).
+    /// Pump and valve are commanded nothing until the cup is known to be free: it may hold a
+    /// vehicle that hangs there since the last time (docs/decisions/0013).
     [[nodiscard]] bool drives_mechanism() const { return drives_mechanism_; }
-    /// Mode to ask the autopilot for, "" for none, until it is so.
+    /// Mode to request from the autopilot, "" for none, until it is so.
     [[nodiscard]] std::string_view wanted_mode() const;
-    /// Whether to ask it to arm or disarm.
+    /// Whether to request arming or disarming.
     [[nodiscard]] std::optional<bool> wanted_armed() const;
 
     [[nodiscard]] const guidance::PerchingMemory& memory() const { return memory_; }
@@ -169,7 +169,7 @@ public:
     [[nodiscard]] bool flew() const { return flew_; }  ///< guidance, before that
 
 private:
-    [[nodiscard]] bool heard(double time_s) const;
+    [[nodiscard]] bool autopilot_alive(double time_s) const;
     [[nodiscard]] bool pose_fresh(double time_s) const;
     [[nodiscard]] std::string_view stale_estimate(double time_s) const;
     [[nodiscard]] Estimate believe(double time_s) const;
@@ -195,22 +195,22 @@ private:
     CompanionWatch watch_;
     SessionInputs inputs_;
     guidance::PerchingMemory memory_;
-    Setpoint setpoint_;  ///< what autopilot and mechanism are told
+    Setpoint setpoint_;  ///< what autopilot and mechanism are sent
     guidance::PerchingTask task_;
     ArmingWatch arming_;
     Judgement pending_;     ///< why it finishes, where it does
     double last_s_ = -1.0;  ///< of the last tick; < 0: there was none
     double phase_s_ = 0.0;  ///< since when in this phase
     double steady_since_s_ = -1.0;
-    double told_obstacle_s_ = -1e9;
+    double shown_obstacle_s_ = -1e9;
     std::string obstacle_;
-    std::string told_obstacle_;
+    std::string shown_obstacle_;
     std::string reason_;
     std::optional<Outcome> outcome_;
     SessionPhase phase_ = SessionPhase::waiting;
     CompanionEnd end_ = CompanionEnd::absent;
     Action left_by_ = Action::let_go;
-    bool asked_ = false;  ///< for a flight
+    bool wanted_ = false;  ///< for a flight
     bool interrupted_ = false;
     bool late_ = false;
     bool engaged_ = false;  ///< the autopilot has flown our set-points

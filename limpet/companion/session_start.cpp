@@ -8,13 +8,13 @@
 namespace limpet::companion {
 namespace {
 
-constexpr double kObstacleEvery_s = 5.0;  ///< what is waited for is said again so often
+constexpr double kObstacleEvery_s = 5.0;  ///< how often what is waited for is repeated
 
 }  // namespace
 
 // --- inputs -------------------------------------------------------------------------------------
 
-bool PerchingSession::heard(double time_s) const {
+bool PerchingSession::autopilot_alive(double time_s) const {
     return inputs_.autopilot.fresh(time_s, setup_.limits.silence_limit_s) &&
            inputs_.autopilot.value.connected;
 }
@@ -46,7 +46,7 @@ Estimate PerchingSession::believe(double time_s) const {
     return estimate;
 }
 
-/// In OFFBOARD and armed, by its last word: one that falls silent has not been told otherwise.
+/// In OFFBOARD and armed, by its last word: one that falls silent has had no other command.
 bool PerchingSession::steers() const {
     return inputs_.autopilot.value.offboard && inputs_.autopilot.value.armed;
 }
@@ -106,10 +106,10 @@ std::string PerchingSession::missing(double time_s) const {
     if (!list.empty() && !inputs_.sensors_refused.empty()) {
         add(fmt::format("the sensors' wire brings what is refused ({})", inputs_.sensors_refused));
     }
-    if (!heard(time_s) && !inputs_.autopilot_refused.empty()) {
+    if (!autopilot_alive(time_s) && !inputs_.autopilot_refused.empty()) {
         add(fmt::format("no heartbeat of the autopilot that is taken (refused: {})",
                         inputs_.autopilot_refused));
-    } else if (!heard(time_s)) {
+    } else if (!autopilot_alive(time_s)) {
         add("no heartbeat of the autopilot");
     } else if (const std::string_view part = stale_estimate(time_s); !part.empty()) {
         add(fmt::format("the autopilot sends no fresh {}", part));
@@ -121,8 +121,8 @@ std::string PerchingSession::missing(double time_s) const {
 
 // --- before a flight ----------------------------------------------------------------------------
 
-/// The pump may hold a vehicle that hangs there since the last time: it is told to rest only once
-/// the cup is known to be free.
+/// The pump may hold a vehicle that hangs there since the last time: it is commanded to rest only
+/// once the cup is known to be free.
 void PerchingSession::wait(double time_s) {
     const Sample<PressureReading>& pressure = inputs_.readings.cup_pressure;
     drives_mechanism_ =
@@ -141,15 +141,15 @@ void PerchingSession::wait(double time_s) {
     } else if (!setup_.by_request && time_s - phase_s_ > setup_.limits.wait_limit_s) {
         hand_back(Action::let_go, CompanionEnd::absent,
                   fmt::format("waited {:g} s: {}", setup_.limits.wait_limit_s, obstacle_), time_s);
-    } else if (obstacle_ != told_obstacle_ || time_s - told_obstacle_s_ >= kObstacleEvery_s) {
+    } else if (obstacle_ != shown_obstacle_ || time_s - shown_obstacle_s_ >= kObstacleEvery_s) {
         watch_.line(time_s, fmt::format("waits: {}", obstacle_));
-        told_obstacle_ = obstacle_;
-        told_obstacle_s_ = time_s;
+        shown_obstacle_ = obstacle_;
+        shown_obstacle_s_ = time_s;
     }
 }
 
 /// Set-points follow the vehicle until it flies them. Motors are armed only by who rises; else they
-/// stay as the operator has them: to ask for less would stop them in the air.
+/// stay as the operator has them: to request less would stop them in the air.
 void PerchingSession::stay(double time_s) {
     if (!steers() || !std::holds_alternative<PositionSetpoint>(setpoint_.motion)) {
         const Estimate estimate = believe(time_s);
@@ -189,9 +189,9 @@ void PerchingSession::stand_ready(double time_s) {
                   time_s);
     } else if (!steers() && !obstacle_.empty()) {
         go(SessionPhase::waiting, time_s);
-        asked_ = !setup_.by_request;
+        wanted_ = !setup_.by_request;
         setpoint_ = {};
-    } else if (asked_ && there && obstacle_.empty()) {
+    } else if (wanted_ && there && obstacle_.empty()) {
         begin(time_s);
     } else {
         be_patient(time_s);
@@ -206,8 +206,8 @@ void PerchingSession::be_patient(double time_s) {
                   fmt::format("waited {:g} s to be flown: {}", setup_.limits.operator_limit_s,
                               waits_for.empty() ? "it does not stand at its start" : waits_for),
                   time_s);
-    } else if (waits_for != told_obstacle_) {
-        told_obstacle_ = waits_for;
+    } else if (waits_for != shown_obstacle_) {
+        shown_obstacle_ = waits_for;
         if (!waits_for.empty()) {
             watch_.line(time_s, waits_for);
         }

@@ -77,7 +77,7 @@ std::string_view to_string(Action action) {
         case Action::carry_on: return "carries on";
         case Action::finish: return "goes on until it rests or is off the wall";
         case Action::hold: return "hands back: hold";
-        case Action::let_go: return "hands back: nothing asked for";
+        case Action::let_go: return "hands back: nothing requested";
     }
     throw InternalError("action out of range");
 }
@@ -122,8 +122,8 @@ Judgement judge(const Signs& signs, Place place) {
     return {};
 }
 
-bool watch_arming(ArmingWatch& watch, bool asked, bool armed, double arming_s, double time_s) {
-    if (!asked) {
+bool watch_arming(ArmingWatch& watch, bool requested, bool armed, double arming_s, double time_s) {
+    if (!requested) {
         watch = {};
         return false;
     }

@@ -17,7 +17,7 @@ namespace limpet::companion {
 //                  ▲           ▼          │
 //                  └─────── leaving ◄─────┘
 //
-// hold is never asked for while the cup holds: a position hold pries at it. Nor do the set-points
+// hold is never requested while the cup holds: a position hold pries at it. Nor do the set-points
 // just stop there: after a second PX4 would hold by itself. So guidance goes on, without taking
 // off, until the vehicle rests with its motors off or is away from the wall.
 
@@ -48,8 +48,8 @@ enum class Cause {
 enum class Action {
     carry_on,  ///< all is well
     finish,    ///< guidance goes on, without taking off, until the place is another
-    hold,      ///< set-points stop, the autopilot is asked for hold, the pump goes off
-    let_go,    ///< set-points stop, nothing is asked for, the pump stays as it is on the wall
+    hold,      ///< set-points stop, hold is requested, the pump goes off
+    let_go,    ///< set-points stop, nothing is requested, the pump stays as it is on the wall
 };
 [[nodiscard]] std::string_view to_string(Action action);
 
@@ -75,13 +75,13 @@ struct Judgement {
 [[nodiscard]] Action action_for(Cause cause, Place place);
 
 /// Watches that nobody disarms the vehicle behind our back. Heartbeats come once a second: what
-/// they show counts arming_s after arming was asked for.
+/// they show counts arming_s after arming was requested.
 struct ArmingWatch {
-    double asked_s = -1.0;  ///< since when armed is asked for without a break; < 0: it is not
+    double asked_s = -1.0;  ///< since when armed is requested without a break; < 0: it is not
     bool seen = false;      ///< armed since then
 };
-/// @return whether it was armed as asked and is no longer
-[[nodiscard]] bool watch_arming(ArmingWatch& watch, bool asked, bool armed, double arming_s,
+/// @return whether it was armed as requested and is no longer
+[[nodiscard]] bool watch_arming(ArmingWatch& watch, bool requested, bool armed, double arming_s,
                                 double time_s);
 
 }  // namespace limpet::companion

@@ -3,12 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <span>
 #include <utility>
 
+#include "limpet/devices/mechanism_line.hpp"
 #include "limpet/mavlink/key_file.hpp"
 
 namespace limpet::companion {
 namespace {
+
+/// The longest wait for space in a wire: guidance must not be late for a pump.
+constexpr std::chrono::milliseconds kPatience(5);
 
 constexpr std::uint8_t kAutopilotLink = 0;
 constexpr std::uint8_t kSensorsLink = 1;
@@ -18,7 +25,7 @@ mavlink::Sender self_of(const CompanionConfig& config) {
             .component = mavlink::kCompanionComponent};
 }
 
-/// UDP and multicast wait for whoever speaks; the others connect.
+/// UDP and multicast wait for a peer that speaks; the others connect.
 wire::Role role_of(const wire::TransportAddress& address) {
     return address.medium == wire::Medium::tcp ? wire::Role::connect : wire::Role::listen;
 }
@@ -90,6 +97,36 @@ std::vector<std::string> signing_report(const Wires& wires) {
     add("autopilot", wires.autopilot);
     add("sensors", wires.sensors);
     return lines;
+}
+
+bool MechanismPace::due(const mavlink::MechanismCommand& wanted, double rate_Hz, double time_s) {
+    constexpr double kRounding_s = 1e-6;
+    if (asked_s_ < 0.0 || !(wanted == command_)) {
+        asked_s_ = time_s;
+        command_ = wanted;
+        repeats_ = 0;
+    } else if (time_s >= sent_s_ && time_s - sent_s_ < 1.0 / rate_Hz - kRounding_s) {
+        return false;  // not when a simulation began anew
+    } else {
+        ++repeats_;
+    }
+    sent_s_ = time_s;
+    return true;
+}
+
+void tell_mechanism(const CompanionConfig& config, Wires& wires,
+                    const mavlink::MechanismCommand& wanted, int repeats) {
+    if (config.mechanism == MechanismWire::line) {
+        devices::MechanismBuffer buffer;
+        const std::string_view line =
+            devices::encode({.pump_on = wanted.pump_on, .valve_open = wanted.valve_open}, buffer);
+        (void)wires.mechanism->send(std::as_bytes(std::span(line)), kPatience);
+        return;
+    }
+    const auto confirmation = static_cast<std::uint8_t>(std::min(repeats, 255));
+    (void)wires.sensors->send(
+        mavlink::actuator_command(wanted, static_cast<std::uint8_t>(config.system), confirmation),
+        kPatience);
 }
 
 }  // namespace limpet::companion

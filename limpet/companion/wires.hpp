@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/devices/natnet_client.hpp"
 #include "limpet/mavlink/link.hpp"
+#include "limpet/mavlink/mechanism.hpp"
 #include "limpet/wire/transport.hpp"
 
 namespace limpet::companion {
@@ -36,5 +36,27 @@ void check_signing(const CompanionConfig& config);
 
 /// What signing has refused and could not do, a line a wire, for people; none: all is well.
 [[nodiscard]] std::vector<std::string> signing_report(const Wires& wires);
+
+/// When to send the command of pump and valve: at once when it changes, and again so many times a
+/// second, whether or not the mechanism has answered: so that one that was reset receives it.
+class MechanismPace {
+public:
+    [[nodiscard]] bool due(const mavlink::MechanismCommand& wanted, double rate_Hz, double time_s);
+    /// Since when the present command holds; < 0: nothing was commanded yet.
+    [[nodiscard]] double asked_s() const { return asked_s_; }
+    /// How often the same command has been repeated.
+    [[nodiscard]] int repeats() const { return repeats_; }
+
+private:
+    mavlink::MechanismCommand command_;
+    double asked_s_ = -1.0;
+    double sent_s_ = -1e9;
+    int repeats_ = 0;
+};
+
+/// Sends the command over a companion's wires.
+/// @param repeats  how often it has been sent before
+void tell_mechanism(const CompanionConfig& config, Wires& wires,
+                    const mavlink::MechanismCommand& wanted, int repeats);
 
 }  // namespace limpet::companion

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/compare/align.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "limpet/compare/compare.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 
@@ -32,7 +31,7 @@ std::vector<EventPair> happenings(const record::Recording& recording) {
     return found;
 }
 
-/// The longest run of common events that both flights tell in the same order.
+/// The longest run of common events that have the same order in both flights.
 std::vector<EventPair> in_same_order(const std::vector<EventPair>& events) {
     std::vector<EventPair> common;
     std::copy_if(events.begin(), events.end(), std::back_inserter(common),

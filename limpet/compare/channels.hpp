@@ -35,8 +35,8 @@ struct FlightChannel {
 /// Numbers for states that were recorded as words, the same in all recordings compared.
 using StateNumbers = std::map<std::string, double, std::less<>>;
 
-/// Every channel that the recording has: ours by their names, and all numbers of topics that are
-/// not ours as TOPIC/COLUMN with the unit that ROS gives them. World north-east-down, body
+/// Every channel that the recording has: Limpet's by their names, and all numbers of other topics
+/// as TOPIC/COLUMN with the unit that ROS gives them. World north-east-down, body
 /// forward-right-down.
 [[nodiscard]] std::vector<FlightChannel> flight_channels(const record::Recording& recording,
                                                          StateNumbers& numbers);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "limpet/compare/rest.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
@@ -122,7 +121,7 @@ std::vector<FlightFigure> figures_of(const record::Recording& reference,
     return figures;
 }
 
-/// Without an InputError's file nobody knows which of the flights is meant.
+/// Names the flights that an InputError is about.
 std::string both(const FlightComparison& comparison) {
     return comparison.reference.path + " and " + comparison.other.path;
 }

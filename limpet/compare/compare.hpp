@@ -1,17 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "limpet/compare/align.hpp"
 #include "limpet/compare/channels.hpp"
-#include "limpet/compare/contact.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/record/story.hpp"
 
 /// How a flight differs from a reference: events, figures of merit, every channel.
 namespace limpet::compare {
+
+/// Pressures of the n-th stage of two flights, laid over each other.
+struct ContactDifference {
+    bool sealing = true;
+    double reference_from_s = 0.0;
+    double other_from_s = 0.0;
+    double span_s = 0.0;       ///< that both have
+    double shift_s = 0.0;      ///< other's time less the reference's where they agree best
+    double largest_hPa = 0.0;  ///< what is left then
+    double rms_hPa = 0.0;
+};
+
+/// Recordings have samples, contacts begin between them: the shift is searched within two samples
+/// of what the phases say. Where the cup's loads were recorded, the pressure is that which acts,
+/// (pull + pull to spare) / area, without the pump's ripple, which runs by the clock of the flight
+/// and not from the contact on; else it is the pressure recorded. A stage too short or too sparse
+/// to hold one sample in common is left out.
+[[nodiscard]] std::vector<ContactDifference> compare_contacts(
+    const record::Recording& reference, const std::vector<FlightChannel>& reference_channels,
+    const record::Recording& other, const std::vector<FlightChannel>& other_channels);
+
+/// The n-th time that something happened, in a reference and in another flight.
+struct EventPair {
+    std::string name;
+    int occurrence = 1;
+    double reference_s = 0.0;  ///< NaN: did not happen there
+    double other_s = 0.0;      ///< likewise
+
+    [[nodiscard]] bool in_both() const;
+};
+
+/// Events of both, in the order of the reference; what only the other has stands where it happened.
+/// Parameters that were set in flight are none.
+[[nodiscard]] std::vector<EventPair> pair_events(const record::Recording& reference,
+                                                 const record::Recording& other);
+
+struct Alignment {
+    enum class By {
+        events,  ///< each stretch between two common events lies at both of them
+        start,   ///< one shift: the first samples
+        event,   ///< one shift: the first occurrence of `event`
+    };
+    By by = By::events;
+    std::string event = {};
+};
+
+/// A stretch of the reference that the other flight has as well.
+struct Piece {
+    std::string from;                   ///< the last common event before it; "start"
+    record::Window window;              ///< in the reference's time
+    double shift_s = 0.0;               ///< the other's time less the reference's
+    double reference_left_out_s = 0.0;  ///< what the reference has longer
+    double other_left_out_s = 0.0;      ///< what the other has longer
+};
+
+/// Stretches in time, without overlap. What lasts longer in one flight between two common events is
+/// left out midway, so that both events have what leads up to them, an impact's rise say, and what
+/// follows. Where events have another order, as few as
+/// possible are passed over.
+/// @param reference  when it was recorded
+/// @param other      likewise
+/// @throws InputError when there is no common event to align at
+[[nodiscard]] std::vector<Piece> align(const std::vector<EventPair>& events,
+                                       const record::Window& reference, const record::Window& other,
+                                       const Alignment& alignment);
+
+/// The shift that event times are reported against: of the starts, or of the event aligned at.
+[[nodiscard]] double base_shift_s(const std::vector<EventPair>& events,
+                                  const record::Window& reference, const record::Window& other,
+                                  const Alignment& alignment);
 
 /// Lowest and highest of a channel in one flight, over the whole of it.
 struct Extremes {
@@ -33,7 +102,7 @@ struct ChannelDifference {
     Extremes other;
 };
 
-/// A number that says something of a whole flight.
+/// A number of a whole flight.
 struct FlightFigure {
     std::string name;                  ///< "impact_force_N"
     double reference = 0.0;            ///< NaN: not there
@@ -54,7 +123,7 @@ struct FlightIdentity {
 struct FlightComparison {
     FlightIdentity reference;
     FlightIdentity other;
-    double base_shift_s = 0.0;  ///< event times are told less this
+    double base_shift_s = 0.0;  ///< event times are reported less this
     std::vector<EventPair> events = {};
     std::vector<Piece> pieces = {};
     std::vector<FlightFigure> figures = {};
@@ -90,5 +159,32 @@ struct Differences {
 /// @throws InputError when there is no common event to align at, or no common channel
 [[nodiscard]] FlightComparison compare(const FlightTrace& reference, const FlightTrace& other,
                                        const Alignment& alignment);
+
+/// How a vehicle hangs on the wall with its motors off: means over the second half of the rest,
+/// when it has come to stand still.
+struct Rest {
+    double pitch_deg = 0.0;
+    double roll_deg = 0.0;
+    double slider_mm = 0.0;
+    double cup_pull_N = 0.0;
+    double cup_shear_N = 0.0;
+    double hanging_load_N = 0.0;  ///< upwards, by the wall on cup and legs
+    double wall_push_N = 0.0;     ///< out of the wall, north less: legs push what the cup pulls
+    double weight_N = 0.0;        ///< of the recording's model; NaN without one
+};
+
+struct RestNumber {
+    const char* name;
+    double Rest::*field;
+};
+inline constexpr RestNumber kRestNumbers[] = {
+    {"rest_pitch_deg", &Rest::pitch_deg},           {"rest_roll_deg", &Rest::roll_deg},
+    {"rest_slider_mm", &Rest::slider_mm},           {"rest_cup_pull_N", &Rest::cup_pull_N},
+    {"rest_cup_shear_N", &Rest::cup_shear_N},       {"rest_wall_push_N", &Rest::wall_push_N},
+    {"rest_hanging_load_N", &Rest::hanging_load_N}, {"weight_N", &Rest::weight_N},
+};
+
+/// @return nullopt when it did not rest for a second, or when loads or attitude were not recorded
+[[nodiscard]] std::optional<Rest> rest_of(const record::Recording& recording);
 
 }  // namespace limpet::compare

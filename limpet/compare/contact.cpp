@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/compare/contact.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "limpet/compare/compare.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/signals/cup_status.hpp"
@@ -135,10 +134,10 @@ std::vector<SealStage> seal_stages(const std::vector<FlightChannel>& channels) {
 std::vector<ContactDifference> compare_contacts(
     const record::Recording& reference, const std::vector<FlightChannel>& reference_channels,
     const record::Recording& other, const std::vector<FlightChannel>& other_channels) {
-    const std::vector<SealStage> ours = seal_stages(reference_channels);
-    const std::vector<SealStage> theirs = seal_stages(other_channels);
+    const std::vector<SealStage> first = seal_stages(reference_channels);
+    const std::vector<SealStage> second = seal_stages(other_channels);
     std::vector<ContactDifference> found;
-    if (ours.empty() || theirs.empty() ||
+    if (first.empty() || second.empty() ||
         find_named(reference_channels, "cup_pressure_hPa") == nullptr ||
         find_named(other_channels, "cup_pressure_hPa") == nullptr) {
         return found;
@@ -146,23 +145,23 @@ std::vector<ContactDifference> compare_contacts(
     const FlightChannel a = acting_pressure(reference, reference_channels);
     const FlightChannel b = acting_pressure(other, other_channels);
     const double reach_s = kSearch_samples * std::max(sample_s(a), sample_s(b));
-    for (std::size_t k = 0; k < std::min(ours.size(), theirs.size()); ++k) {
-        if (ours[k].sealing != theirs[k].sealing) {
-            break;  // from here on the flights tell different stories
+    for (std::size_t k = 0; k < std::min(first.size(), second.size()); ++k) {
+        if (first[k].sealing != second[k].sealing) {
+            break;  // from here on the flights differ
         }
-        const double from_s = ours[k].window.from_s;
-        const double span_s = std::min(ours[k].window.span_s(), theirs[k].window.span_s());
+        const double from_s = first[k].window.from_s;
+        const double span_s = std::min(first[k].window.span_s(), second[k].window.span_s());
         // Both ends move with the shift: what lies within its reach may be of the stage next door.
         const record::Window window{from_s + reach_s, from_s + span_s - reach_s};
-        const double guess_s = theirs[k].window.from_s - from_s;
+        const double guess_s = second[k].window.from_s - from_s;
         const double shift_s = best_shift_s(a, b, window, guess_s, reach_s);
         const Misfit left = misfit(a, b, window, shift_s);
         if (left.samples == 0) {
             continue;  // nothing was compared, which is not agreement
         }
-        found.push_back({.sealing = ours[k].sealing,
+        found.push_back({.sealing = first[k].sealing,
                          .reference_from_s = from_s,
-                         .other_from_s = theirs[k].window.from_s,
+                         .other_from_s = second[k].window.from_s,
                          .span_s = span_s,
                          .shift_s = shift_s,
                          .largest_hPa = left.largest,

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/compare/figures.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "limpet/compare/report.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
@@ -41,11 +40,11 @@ double least_span(const FlightChannel& channel) {
     return found == std::end(kLeastSpans) ? 0.0 : found->span;
 }
 
-/// Told apart by lightness and by dashes, not by hue alone.
+/// They differ in lightness and in dashes, not in hue alone.
 constexpr std::array kOtherColours = {draw::colours::kOrange, draw::colours::kGreen,
                                       draw::colours::kPlum, draw::colours::kBlue};
 
-/// Groups in the order of the files; "others" hold what is not ours.
+/// Groups in the order of the files; "others" hold other programs' topics.
 constexpr std::array kGroups = {"cup",      "force",  "attitude", "rates",    "position", "speed",
                                 "distance", "rotors", "battery",  "setpoint", "others"};
 
@@ -74,7 +73,7 @@ std::vector<draw::ChartLine> phase_lines(const record::Recording& recording) {
     return lines;
 }
 
-/// Whether there is anything to see: a valve that nobody opens fills no panel.
+/// Whether there is anything to see: a valve that stays closed fills no panel.
 bool worth_drawing(const FlightChannel& channel, const std::vector<FlightComparison>& comparisons) {
     const auto flat = [](const Extremes& e) { return !(e.highest > e.lowest); };
     return std::any_of(comparisons.begin(), comparisons.end(), [&](const FlightComparison& c) {

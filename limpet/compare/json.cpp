@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
-#include "limpet/compare/text.hpp"
+#include "limpet/compare/report.hpp"
 
 namespace limpet::compare {
 namespace {

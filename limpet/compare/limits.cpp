@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/compare/limits.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "limpet/compare/report.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
@@ -50,7 +49,7 @@ Found worst_contact(const FlightComparison& comparison) {
 }
 
 std::vector<Found> all_of(const FlightComparison& comparison) {
-    // Flights of which none says how it ended are not told as alike.
+    // Flights without a recorded outcome are not alike.
     const std::string& expected = comparison.reference.summary.outcome;
     const std::string& outcome = comparison.other.summary.outcome;
     const bool alike = !expected.empty() && expected == outcome;
@@ -91,13 +90,10 @@ std::vector<Excess> check_limits(const std::vector<FlightComparison>& comparison
             const std::vector<Found> all = all_of(comparison);
             const Found* found = find_named(all, limit.name);
             if (found == nullptr) {
-                std::vector<std::string> names;
-                for (const Found& one : all) {
-                    names.push_back(one.name);
-                }
-                throw InputError(fmt::format(
-                    "--limit {}: {} and {} have no such difference; there are: {}", limit.name,
-                    comparison.reference.label, comparison.other.label, fmt::join(names, ", ")));
+                throw InputError(
+                    fmt::format("--limit {}: {} and {} have no such difference; there are: {}",
+                                limit.name, comparison.reference.label, comparison.other.label,
+                                fmt::join(names_of(all), ", ")));
             }
             if (found->size > worst.measured) {
                 worst = {limit, comparison.other.label, found->size, found->where};

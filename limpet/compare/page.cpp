@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/compare/page.hpp"
+#include "limpet/report/page.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "limpet/compare/text.hpp"
+#include "limpet/compare/report.hpp"
 #include "limpet/core/version.hpp"
-#include "limpet/report/page.hpp"
 
 namespace limpet::compare {
 namespace {
@@ -51,43 +50,21 @@ PageTable limits_table(const std::vector<Excess>& checked) {
     return table;
 }
 
-PageTable events_table(const FlightComparison& comparison, const std::string& id) {
-    PageTable table{.id = "events" + id,
-                    .title = "Events",
-                    .columns = {"event", "reference, s", "other, s", "later by, s"}};
-    for (const EventPair& event : comparison.events) {
-        const std::string nth = event.occurrence > 1 ? fmt::format(" ({})", event.occurrence) : "";
-        table.rows.push_back(
-            {record::words(event.name) + nth, or_dash(event.reference_s), or_dash(event.other_s),
-             or_dash(event.in_both() ? comparison.event_difference_s(event) : kNaN)});
-    }
-    return table;
-}
+constexpr const char* kAtSamples =
+    "At the reference's samples, events laid on events. An impact a sample earlier is a large "
+    "difference of a force for that long; the pictures leave out what so short a shift explains.";
 
-PageTable figures_table(const FlightComparison& comparison, const std::string& id) {
-    PageTable table{.id = "figures" + id,
-                    .title = "Figures of the flight",
-                    .columns = {"figure", "reference", "other", "off by"}};
-    for (const FlightFigure& figure : comparison.figures) {
-        table.rows.push_back(
-            {figure.name, or_dash(figure.reference), or_dash(figure.other), or_dash(figure.off())});
-    }
-    return table;
-}
-
-PageTable channels_table(const FlightComparison& comparison, const std::string& id) {
-    PageTable table{
-        .id = "channels" + id,
-        .title = "Channels",
-        .columns = {"channel", "largest difference", "RMS", "at, s", "while", "unit"},
-        .caption =
-            "At the reference's samples, events laid on events. An impact a sample earlier "
-            "is a large difference of a force for that long; the pictures leave out what "
-            "so short a shift explains."};
-    for (const ChannelDifference& channel : comparison.channels) {
-        if (channel.samples > 0) {
-            table.rows.push_back({channel.name, channel.largest, channel.rms, channel.at_s,
-                                  or_dash(record::words(channel.phase)), or_dash(channel.unit)});
+/// A table of the text.
+PageTable shown(const TextTable& text, std::string id, std::string title,
+                std::string caption = "") {
+    PageTable table{.id = std::move(id),
+                    .title = std::move(title),
+                    .columns = text.front(),
+                    .caption = std::move(caption)};
+    for (auto row = text.begin() + 1; row != text.end(); ++row) {
+        table.rows.emplace_back();
+        for (const std::string& cell : *row) {
+            table.rows.back().push_back(or_dash(cell));
         }
     }
     return table;
@@ -140,9 +117,11 @@ std::string comparison_html(const std::vector<FlightComparison>& comparisons,
         const std::string id = fmt::format("-{}", i + 1);
         report::PageSection section{.id = "flight" + id,
                                     .title = comparisons[i].other.label + " in numbers"};
-        add_if_any(section, events_table(comparisons[i], id));
-        add_if_any(section, figures_table(comparisons[i], id));
-        add_if_any(section, channels_table(comparisons[i], id));
+        const FlightComparison& one = comparisons[i];
+        add_if_any(section, shown(events_table(one), "events" + id, "Events"));
+        add_if_any(section, shown(figures_table(one), "figures" + id, "Figures of the flight"));
+        add_if_any(section, shown(contacts_table(one), "contacts" + id, "The same contacts"));
+        add_if_any(section, shown(channels_table(one), "channels" + id, "Channels", kAtSamples));
         page.sections.push_back(std::move(section));
     }
     page.environment = {{"version", std::string(kVersion)},

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/compare/rest.hpp"
-
 #include <cmath>
 #include <pugixml.hpp>
 #include <string_view>
 
 #include "limpet/compare/channels.hpp"
+#include "limpet/compare/compare.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/record/ros_frames.hpp"
 #include "limpet/record/story.hpp"

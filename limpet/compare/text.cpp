@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/compare/text.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,6 +8,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "limpet/compare/report.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/signals/true_end.hpp"
 
@@ -19,7 +18,7 @@ namespace {
 /// Leftovers shorter than this are of no interest: a few samples.
 constexpr double kWorthTelling_s = 0.05;
 
-/// Channels of the table: what acts on cup and vehicle, not what is derived or asked for.
+/// Channels of the table: what acts on cup and vehicle, neither what is derived nor set-points.
 constexpr std::string_view kShownChannels[] = {
     "pitch_deg",      "north_m",    "down_m",   "cup_pressure_hPa",
     "slider_force_N", "cup_pull_N", "thrust_N",
@@ -45,9 +44,6 @@ constexpr std::string_view kShownFigures[] = {
     "rest_hanging_load_N",
     "rest_hanging_load_off_weight",
 };
-
-/// Names of the columns, then the rows.
-using TextTable = std::vector<std::vector<std::string>>;
 
 /// Columns as wide as their widest cell, numbers at their right; nothing without a row.
 std::string aligned(const TextTable& table) {
@@ -98,7 +94,7 @@ std::string short_of(double value, int digits = 4) {
 }
 
 /// As recorded, and the truth where it does not bear it out.
-std::string told_outcome(const record::Summary& summary) {
+std::string outcome_text(const record::Summary& summary) {
     const auto outcome = outcome_from(summary.outcome);
     const auto truth = true_end_from(summary.true_end);
     return outcome && truth ? told_with_truth(*outcome, *truth) : summary.outcome;
@@ -109,7 +105,7 @@ std::string flight_line(const FlightIdentity& flight, std::size_t width) {
     return fmt::format("{:<{}}  {}{}: {}{}\n", flight.label, width,
                        s.scenario.empty() ? "flight" : s.scenario,
                        s.seed.empty() ? "" : ", seed " + s.seed,
-                       s.outcome.empty() ? "no outcome recorded" : told_outcome(s),
+                       s.outcome.empty() ? "no outcome recorded" : outcome_text(s),
                        s.reason.empty() ? "" : " (" + s.reason + ")");
 }
 
@@ -117,54 +113,13 @@ std::string event_name(const EventPair& event) {
     return event.occurrence > 1 ? fmt::format("{} {}", event.name, event.occurrence) : event.name;
 }
 
-std::string events_text(const FlightComparison& c) {
-    TextTable table = {{"event", "reference s", "other s", "difference s", "since the last s"}};
-    double last_s = 0.0;
-    for (const EventPair& event : c.events) {
-        const double difference_s = c.event_difference_s(event);
-        table.push_back({event_name(event), fixed(event.reference_s), fixed(event.other_s),
-                         fixed(difference_s), fixed(difference_s - last_s)});
-        last_s = event.in_both() ? difference_s : last_s;
-    }
-    return aligned(table);
-}
-
-std::string figures_text(const FlightComparison& c) {
-    TextTable table = {{"figure", "reference", "other", "difference"}};
-    for (const FlightFigure& figure : c.figures) {
-        table.push_back({figure.name, short_of(figure.reference), short_of(figure.other),
-                         short_of(figure.other - figure.reference)});
-    }
-    return aligned(table);
-}
-
-std::string contacts_text(const FlightComparison& c) {
-    TextTable table = {
-        {"same contact", "reference s", "for s", "shift s", "largest hPa", "RMS hPa"}};
-    for (const ContactDifference& contact : c.contacts) {
-        table.push_back({contact.sealing ? "sealing" : "unsealing", fixed(contact.reference_from_s),
-                         fixed(contact.span_s), fixed(contact.shift_s, 4),
-                         fixed(contact.largest_hPa), fixed(contact.rms_hPa)});
-    }
-    return aligned(table);
-}
-
-std::string channels_text(const FlightComparison& c) {
-    TextTable table = {{"channel", "largest", "at s", "RMS", "samples", "in"}};
-    std::string none;
+std::string left_out_text(const FlightComparison& c) {
+    std::string none, text;
     for (const ChannelDifference& channel : c.channels) {
         if (channel.samples == 0) {
             none += fmt::format("{}: no time at which both have a value\n", channel.name);
-            continue;
         }
-        table.push_back({channel.name, short_of(channel.largest), fixed(channel.at_s),
-                         short_of(channel.rms), fmt::format("{}", channel.samples), channel.phase});
     }
-    return aligned(table) + none;
-}
-
-std::string left_out_text(const FlightComparison& c) {
-    std::string text;
     for (const Piece& piece : c.pieces) {
         const bool reference = piece.reference_left_out_s > kWorthTelling_s;
         const bool other = piece.other_left_out_s > kWorthTelling_s;
@@ -181,7 +136,7 @@ std::string left_out_text(const FlightComparison& c) {
             text += fmt::format("only in {}: {}\n", flight->label, fmt::join(*names, ", "));
         }
     }
-    return text.empty() ? text : "\n" + text;
+    return none + (text.empty() ? text : "\n" + text);
 }
 
 std::string worst_contact_text(const FlightComparison& comparison) {
@@ -202,12 +157,57 @@ void add_row(TextTable& table, const std::string& name, const std::string& refer
 
 }  // namespace
 
+TextTable events_table(const FlightComparison& c) {
+    TextTable table = {{"event", "reference s", "other s", "difference s", "since the last s"}};
+    double last_s = 0.0;
+    for (const EventPair& event : c.events) {
+        const double difference_s = c.event_difference_s(event);
+        table.push_back({event_name(event), fixed(event.reference_s), fixed(event.other_s),
+                         fixed(difference_s), fixed(difference_s - last_s)});
+        last_s = event.in_both() ? difference_s : last_s;
+    }
+    return table;
+}
+
+TextTable figures_table(const FlightComparison& c) {
+    TextTable table = {{"figure", "reference", "other", "difference"}};
+    for (const FlightFigure& figure : c.figures) {
+        table.push_back({figure.name, short_of(figure.reference), short_of(figure.other),
+                         short_of(figure.other - figure.reference)});
+    }
+    return table;
+}
+
+TextTable contacts_table(const FlightComparison& c) {
+    TextTable table = {
+        {"same contact", "reference s", "for s", "shift s", "largest hPa", "RMS hPa"}};
+    for (const ContactDifference& contact : c.contacts) {
+        table.push_back({contact.sealing ? "sealing" : "unsealing", fixed(contact.reference_from_s),
+                         fixed(contact.span_s), fixed(contact.shift_s, 4),
+                         fixed(contact.largest_hPa), fixed(contact.rms_hPa)});
+    }
+    return table;
+}
+
+TextTable channels_table(const FlightComparison& c) {
+    TextTable table = {{"channel", "largest", "at s", "RMS", "samples", "in"}};
+    for (const ChannelDifference& channel : c.channels) {
+        if (channel.samples > 0) {
+            table.push_back({channel.name, short_of(channel.largest), fixed(channel.at_s),
+                             short_of(channel.rms), fmt::format("{}", channel.samples),
+                             channel.phase});
+        }
+    }
+    return table;
+}
+
 std::string comparison_text(const FlightComparison& comparison) {
     const std::size_t width =
         std::max(comparison.reference.label.size(), comparison.other.label.size());
     return flight_line(comparison.reference, width) + flight_line(comparison.other, width) +
-           events_text(comparison) + figures_text(comparison) + contacts_text(comparison) +
-           channels_text(comparison) + left_out_text(comparison);
+           aligned(events_table(comparison)) + aligned(figures_table(comparison)) +
+           aligned(contacts_table(comparison)) + aligned(channels_table(comparison)) +
+           left_out_text(comparison);
 }
 
 std::string limits_text(const std::vector<Excess>& checked) {

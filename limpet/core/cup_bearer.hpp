@@ -11,7 +11,7 @@ namespace limpet {
 using Vector6 = Eigen::Matrix<double, 6, 1>;  ///< force, moment; or velocity, angular velocity
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// What hangs on the cup, asked by the lip in a step: so that a lip that is stiff for the step's
+/// What hangs on the cup, as the lip sees it in a step: so that a lip that is stiff for the step's
 /// length can give way within it. In the tangent frame T of the spot before the lip, about the
 /// lip's centre.
 class CupBearer {
@@ -38,7 +38,7 @@ public:
     /// Length of the step that comes [s].
     [[nodiscard]] virtual double step_s() const = 0;
     /// About how easily the lip moves: change of each part of its twist in a second by a unit of
-    /// its own force or moment, of the vehicle as it is built; tells what is stiff for a step.
+    /// its own force or moment, of the vehicle as it is built; for what is stiff in a step.
     [[nodiscard]] virtual const Vector6& mobility_1_s() const = 0;
     /// The step with six springs between lip and wall. They stay until response() or let_go().
     /// @param R_WT  axes of the springs

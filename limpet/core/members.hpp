@@ -12,7 +12,7 @@ namespace limpet {
 struct AnyMember {
     template <class T>
     operator T() const {
-        std::terminate();  // asked for, never called
+        std::terminate();  // required, never called
     }
 };
 

@@ -49,7 +49,7 @@ struct NoiseTerm {
 };
 /// A noise between others: each standard normal is the weighted sum of those that the seeds would
 /// draw in its place, over the root of the sum of the squared weights; every other draw is that of
-/// such a normal's probability. A little weight of another seed is a noise a little beside the old
+/// such a normal's probability. A little weight of another seed is a noise a little next to the old
 /// one, and standard normal all the same.
 using NoiseBlend = std::vector<NoiseTerm>;
 

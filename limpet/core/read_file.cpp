@@ -61,10 +61,10 @@ std::string read_file(const std::filesystem::path& path, const FileBound& bound,
         throw InputError(shown + ": is a directory, not a file");
     }
     const std::size_t most = bound.most_MB * 1'000'000;
-    const auto told = static_cast<std::size_t>(std::max<off_t>(status.st_size, 0));
+    const auto stated = static_cast<std::size_t>(std::max<off_t>(status.st_size, 0));
     std::string text;
-    if (told <= most) {
-        text.reserve(told);
+    if (stated <= most) {
+        text.reserve(stated);
         std::array<char, 65536> part;
         for (ssize_t count = 1; count > 0 && text.size() <= most;) {
             count = file.read_some(part.data(), part.size());
@@ -74,7 +74,7 @@ std::string read_file(const std::filesystem::path& path, const FileBound& bound,
             text.append(part.data(), static_cast<std::size_t>(count));
         }
     }
-    if (told > most || text.size() > most) {
+    if (stated > most || text.size() > most) {
         throw InputError(shown + ": is larger than " + std::to_string(bound.most_MB) +
                          " MB, which no " + std::string(bound.what) + " is");
     }

@@ -11,7 +11,7 @@ namespace limpet {
 /// The most rotors that a vehicle has: six coaxial pairs. Source: PX4's CA_ROTOR_COUNT.
 inline constexpr std::size_t kMaxRotors = 12;
 
-/// One value a rotor, in the order of the vehicle file. Room for kMaxRotors, so that it is copied
+/// One value a rotor, in the order of the vehicle file. Space for kMaxRotors, so that it is copied
 /// without allocating; places beyond the count hold zeros.
 template <class T>
 class RotorList {

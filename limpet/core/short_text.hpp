@@ -9,7 +9,7 @@
 namespace limpet {
 
 /// A text that is part of a state: plain, without heap, whole again in another process. What is
-/// longer than its room is cut.
+/// longer than its capacity is cut.
 class ShortText {
 public:
     static constexpr std::size_t kRoom = 120;

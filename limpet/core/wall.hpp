@@ -8,7 +8,7 @@
 #include "limpet/core/frames.hpp"
 
 /// The wall as the modules know it: what is under a point before it. Whoever seals on it, keeps
-/// away from it or draws it asks for the tangent frame, a distance or a solid, and does not know
+/// away from it or draws it uses the tangent frame, a distance or a solid, and does not know
 /// its shape. A shape is one file, wall_NAME.cpp, and a line in wall.cpp.
 namespace limpet {
 

@@ -11,7 +11,7 @@ struct StepForce {
     T gain{};
 };
 
-/// Mean force over a step of a spring k and damper c beside each other on something light.
+/// Mean force over a step of a spring k and a damper c in parallel on something light.
 ///
 /// Bodies are stepped as v+ = v + dv, x+ = x + h v+, so rates belong to the middle of the steps.
 /// There the trapezoidal rule is k (x + h dv / 4) and c (v + dv / 2): of second order, and stable

@@ -9,13 +9,13 @@
 
 namespace limpet {
 
-/// Who waits for long work: is told how it goes, and may stop it.
+/// Who waits for long work: receives its progress, and may stop it.
 struct Work {
     std::function<void(const std::string& what)> tell = {};  ///< "frame 12 of 250"
     const std::atomic<bool>* stop = nullptr;
 
     /// Between two pieces of it.
-    /// @throws Interrupted where it was asked to stop
+    /// @throws Interrupted where a stop was requested
     void say(const std::string& what = {}) const {
         if (stop != nullptr && *stop) {
             throw Interrupted("interrupted; nothing was written");

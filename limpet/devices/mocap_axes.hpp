@@ -27,7 +27,7 @@ struct MocapAxes {
     Vector3 p_BP_m = Vector3::Zero();
 };
 
-/// A pose as motion capture tells it, in its own axes.
+/// A pose as motion capture reports it, in its own axes.
 struct MocapPose {
     Vector3 p_MP_m = Vector3::Zero();
     Quaternion q_MP = Quaternion::Identity();

@@ -47,7 +47,7 @@ struct NatNetBody {
     bool tracking_valid = false;  ///< false: not seen in this frame, the pose is an old one
 };
 
-/// Why a packet brings no pose of the body that was asked for.
+/// Why a packet brings no pose of the body that was requested.
 enum class NatNetRefusal {
     none,
     not_natnet,   ///< shorter than its header says, or of another kind
@@ -60,7 +60,7 @@ enum class NatNetRefusal {
     late,         ///< older than a frame before
 };
 
-/// What a packet held beside the pose that was asked for.
+/// What a packet held besides the requested pose.
 struct NatNetSeen {
     NatNetRefusal refusal = NatNetRefusal::none;
     std::array<std::int32_t, 6> ids = {};  ///< the first bodies that are streamed
@@ -73,11 +73,11 @@ struct NatNetFrame {
     double motive_time_s = 0.0;            ///< since Motive's start of streaming
     std::uint64_t mid_exposure_ticks = 0;  ///< of the server's clock, see NatNetServer
     std::uint64_t transmit_ticks = 0;
-    std::optional<NatNetBody> body = {};  ///< the one asked for; nothing: it is not streamed
+    std::optional<NatNetBody> body = {};  ///< the one requested; nothing: it is not streamed
 };
 
 /// Never reads past the end, whatever the bytes are.
-/// @param body_id  streaming id of the rigid body asked for
+/// @param body_id  streaming id of the rigid body requested
 /// @param seen     gets what the frame streams and why there is no pose; null: not wanted
 /// @return nothing when it is no frame, is cut, miscounts, has bytes left over (before 4.1, where
 ///         nothing else shows another layout), or holds a pose that is none
@@ -88,14 +88,14 @@ struct NatNetFrame {
 /// What a server says of itself.
 struct NatNetServer {
     NatNetVersion version = {};
-    std::uint64_t clock_Hz = 0;  ///< of its ticks; 0: not told
+    std::uint64_t clock_Hz = 0;  ///< of its ticks; 0: not reported
     std::uint16_t data_port = kNatNetDataPort;
     bool multicast = true;
-    std::array<std::uint8_t, 4> group = {};  ///< IPv4; zeros: not told
+    std::array<std::uint8_t, 4> group = {};  ///< IPv4; zeros: not reported
 };
 [[nodiscard]] std::optional<NatNetServer> decode_server(std::span<const std::byte> packet);
 
-/// Room for every packet that Limpet makes.
+/// Space for every packet that Limpet makes.
 using NatNetBuffer = std::array<std::byte, 512>;
 
 // Each returns the part of `into` that is the packet.

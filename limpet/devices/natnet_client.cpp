@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "limpet/core/errors.hpp"
 
@@ -14,7 +13,7 @@ namespace {
 /// Beyond it the server's clocks are not what they seem. Motive takes 3 to 20 ms.
 /// Source: assumed: five times the longest latency that Motive's own display shows for our rates
 constexpr double kLongestDelay_s = 0.1;
-/// Connect is said again so often; while unicast frames come it keeps them coming.
+/// How often Connect is repeated; while unicast frames come it keeps them coming.
 constexpr double kConnectEvery_s = 1.0;
 /// Motive counts from 0 again when it streams anew: so far back is no late datagram.
 constexpr std::int64_t kRestart_frames = 1000;
@@ -36,7 +35,7 @@ void NatNetClient::update(double time_s) {
     }
     said_s_ = time_s;
     NatNetBuffer packet;
-    // Nobody there is no fault: it is asked again, and the frames tell.
+    // No answer is no fault: the request is repeated, and the frames show it.
     (void)command_->send(
         server_ ? encode_keep_alive(packet) : encode_connect(options_.version, packet),
         std::chrono::milliseconds(10));

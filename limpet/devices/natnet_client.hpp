@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -18,7 +17,7 @@ namespace limpet::devices {
 struct NatNetOptions {
     std::int32_t body_id = 1;
     MocapAxes axes = {};
-    NatNetVersion version = {};  ///< until the server has told its own
+    NatNetVersion version = {};  ///< until the server has reported its own
 };
 
 /// What has come from Motive.
@@ -31,7 +30,7 @@ struct NatNetCount {
 };
 
 /// Poses of one rigid body from Motive. Multicast: the data wire joins the group; the command wire
-/// asks for the version and the clock, and is not needed. Unicast: the command wire says connect,
+/// requests the version and the clock, and is not needed. Unicast: the command wire says connect,
 /// and frames come back on it. Time is injected. For one thread; receiving allocates nothing.
 class NatNetClient {
 public:

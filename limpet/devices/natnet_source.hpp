@@ -8,9 +8,9 @@
 
 namespace limpet::devices {
 
-/// Motive's end of NatNet, for simulators: tells who asks what it is and streams frames. With a
-/// group to stream to it is a multicast server, without one it streams to who said connect. For
-/// one thread; allocates nothing once running.
+/// Motive's end of NatNet, for simulators: answers requests and streams frames. With a
+/// group to stream to it is a multicast server, without one it streams to the client that
+/// connected. For one thread; allocates nothing once running.
 class NatNetSource {
 public:
     /// @param group    speaks to the multicast group; null: unicast
@@ -18,7 +18,7 @@ public:
     NatNetSource(NatNetServer server, std::unique_ptr<wire::Transport> group,
                  std::unique_ptr<wire::Transport> command);
 
-    /// Answers whoever has asked since.
+    /// Answers the requests that came since.
     void answer();
     /// Waits for no one: a frame that nobody can take is gone.
     void stream(const NatNetFrame& frame);
@@ -29,7 +29,7 @@ private:
     NatNetServer server_;
     std::unique_ptr<wire::Transport> group_;
     std::unique_ptr<wire::Transport> command_;
-    bool connected_ = false;  ///< unicast: somebody has said connect
+    bool connected_ = false;  ///< unicast: a client has connected
 };
 
 }  // namespace limpet::devices

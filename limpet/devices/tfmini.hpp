@@ -9,7 +9,7 @@
 #include "limpet/core/signals/readings.hpp"
 
 /// Benewake TFmini Plus on a serial port, standard output: 115200 baud, 8N1, 9 bytes a frame,
-/// 100 Hz unless told otherwise.
+/// 100 Hz unless set otherwise.
 ///
 ///   0x59 0x59 dist_L dist_H strength_L strength_H temp_L temp_H checksum
 ///

@@ -162,7 +162,7 @@ private:
             study::require_drawn(results.campaign());
             study::begin_study(results, {.figure = "simulated_s", .samples = samples()});
             return results;
-        } catch (const InputError& error) {  // who asked knows no line of that file
+        } catch (const InputError& error) {  // the user does not know that file
             fs::remove_all(options_.folder / "runs");
             const std::string message = error.what();
             const std::size_t key = message.find("parameters.");

@@ -23,7 +23,7 @@ struct DossierWatch {
     const std::atomic<bool>* stop = nullptr;
 };
 
-/// Flies what the file asks and writes index.html and results.json into the folder, beside the runs
+/// Flies what the file needs and writes index.html and results.json into the folder, with the runs
 /// that they link to: campaigns of seeds, steps and engines, a study of the inputs, and the paper's
 /// flights that are its evidence.
 /// @return the files

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/dossier/dossier_file.hpp"
-
 #include <fmt/format.h>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/dossier/dossier_runs.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/study/study.hpp"

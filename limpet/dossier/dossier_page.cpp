@@ -54,7 +54,7 @@ PageTable uses(const DossierFile& file) {
                                 "consequence of a wrong decision"},
                     .caption =
                         "Influence and consequence together are V&V 40's model risk: the "
-                        "higher, the more evidence is asked for."};
+                        "higher, the more evidence is needed."};
     for (const Quantity& one : file.quantities) {
         table.rows.push_back({one.figure, one.scenario, one.use, one.influence, one.consequence});
     }
@@ -109,12 +109,12 @@ PageTable bounds(const DossierFile& file, const std::map<std::string, QuantityFo
                                                  campaign::quantile(found.inputs.values, 0.95)})
                   : report::Quantity("did not come to pass"),
              most != nullptr ? fmt::format("{} ({:.2f})", most->key, most->index.total)
-                             : std::string("too few flights to tell"),
-             found.evidence.empty() ? std::string("none asked for")
+                             : std::string("too few flights"),
+             found.evidence.empty() ? std::string("none requested")
                                     : fmt::format("{} of {} agree", agree, found.evidence.size()),
              found.bound
                  ? fmt::format("{} {:.4g}", one.safe_above ? "at least" : "at most", *found.bound)
-                 : std::string("too few flights to tell, or without it")},
+                 : std::string("too few flights, or without it")},
             {"", "", found.inputs_from, found.inputs_from,
              found.evidence.empty() ? "" : found.evidence.front().second, found.inputs_from});
     }
@@ -235,7 +235,7 @@ std::vector<fs::path> write_dossier(const DossierOptions& options, const Dossier
                      {.id = "pedigree", .title = "Inputs", .blocks = {pedigree(file)}},
                      {.id = "credibility", .title = "Factors", .blocks = {factors(file, all)}}};
     if (std::get<PageTable>(page.sections[2].blocks.front()).rows.empty()) {
-        page.sections[2].blocks = {"No evidence was asked for."};
+        page.sections[2].blocks = {"No evidence was requested."};
     }
     page.environment = {{"version", std::string(kVersion)},
                         {"seed", static_cast<double>(all.begin()->second.inputs.seed)},

@@ -1,17 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "limpet/dossier/dossier.hpp"
-#include "limpet/dossier/dossier_file.hpp"
-#include "limpet/report/claims.hpp"
+#include "limpet/report/page.hpp"
 #include "limpet/study/study.hpp"
 
 namespace limpet::dossier {
+
+/// An input that is not known well.
+struct UncertainInput {
+    std::string key;
+    std::string spread;  ///< as a campaign's file has it: "{uniform: [350, 650]}"
+    std::string source;
+};
+
+/// A number that a decision rests on.
+struct Quantity {
+    std::string name;
+    std::string figure;
+    std::string scenario;
+    std::string unit;
+    std::string use;
+    std::string influence;              ///< of the simulation on the decision
+    std::string consequence;            ///< of a wrong one
+    bool safe_above = false;            ///< larger is safer: the bound is a least value
+    std::vector<std::string> evidence;  ///< ids of the paper's statements
+};
+
+/// A file like data/paper/dossier.yaml, whose head describes its keys.
+struct DossierFile {
+    std::string title;
+    std::string question;
+    std::map<std::string, std::vector<UncertainInput>> inputs;  ///< by scenario
+    std::vector<Quantity> quantities;
+};
+
+/// @throws InputError one line: file:line, key, value, what is allowed
+[[nodiscard]] DossierFile load_dossier(const std::filesystem::path& file);
 
 /// A mean with its 95 % interval, and where it was flown.
 struct Measured {
@@ -49,7 +80,7 @@ struct QuantityFound {
 inline constexpr double kShareHeld = 0.95;
 inline constexpr double kHeldConfidence = 0.95;
 
-/// Flies all that a file asks for, below the folder.
+/// Flies all that a file needs, below the folder.
 [[nodiscard]] std::map<std::string, QuantityFound> fly_dossier(const DossierFile& file,
                                                                const DossierOptions& options,
                                                                const DossierWatch& watch);

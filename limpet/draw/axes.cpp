@@ -44,10 +44,10 @@ Range with_air(const Extent& extent, double air) {
     const double span = extent.high - extent.low;
     // Numbers that differ in their last bits only are one number.
     const double least = 1e-9 * std::max(std::abs(extent.low), std::abs(extent.high));
-    const double room = span > least         ? air * span
-                        : extent.high == 0.0 ? 0.5
-                                             : 0.1 * std::abs(extent.high);
-    return {extent.low - room, extent.high + room};
+    const double margin = span > least         ? air * span
+                          : extent.high == 0.0 ? 0.5
+                                               : 0.1 * std::abs(extent.high);
+    return {extent.low - margin, extent.high + margin};
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ struct ChartPanel {
     }
 };
 
-/// A marked place on a map; not shown where it lies beside it.
+/// A marked place on a map; not shown where it lies outside.
 struct HeatPoint {
     double x = 0.0;
     double y = 0.0;
@@ -129,7 +129,7 @@ struct Chart {
     double column_px = 0.0;  ///< 0: one column is 640 px wide, fit for a phone; several 600 each
 };
 
-/// Draws STEM.png and STEM.svg; a panel without a number says so.
+/// Draws STEM.png and STEM.svg; a panel without a number has the text "no data".
 /// @param stem    of letters, digits, '_' and '-'
 /// @param folder  made when it is not there
 /// @return both files

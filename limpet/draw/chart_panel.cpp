@@ -16,14 +16,6 @@ constexpr double kSample_px = 64.0;   ///< of the key: a stroke and the air arou
 constexpr double kMarkGap_px = 24.0;  ///< between numbers that stand for names
 constexpr double kLevelLine_px = 18.0;
 constexpr double kLevelNames_px = 150.0;  ///< most that names of levels take
-constexpr double kMostBar_px = 80.0;
-
-constexpr const char* kPalette[] = {colours::kDarkBlue, colours::kOrange, colours::kBlue,
-                                    colours::kRust,     colours::kGreen,  colours::kPlum};
-// Dark intervals are seen on these.
-constexpr const char* kBarPalette[] = {colours::kBlue, colours::kPeach, colours::kGreen,
-                                       colours::kPlum, colours::kOrange};
-constexpr int kShapes[] = {7, 5, 9, 13, 11, 6};  // gnuplot's: disc, square, triangle, ...
 
 void check(const ChartPanel& panel) {
     for (const ChartSeries& s : panel.series) {
@@ -40,37 +32,7 @@ void check(const ChartPanel& panel) {
             "a logarithmic axis is positive");
 }
 
-std::string colour_of(const ChartPanel& panel, std::size_t index) {
-    const std::string& own = panel.series[index].colour;
-    if (own.empty()) {
-        return panel.series[index].mark == Mark::bars ? kBarPalette[index % std::size(kBarPalette)]
-                                                      : kPalette[index % std::size(kPalette)];
-    }
-    require(own.size() == 7 && own[0] == '#' &&
-                own.find_first_not_of("0123456789abcdefABCDEF", 1) == own.npos,
-            "a colour is #RRGGBB");
-    return own;
-}
-
-/// Series of a mark before one of them.
-std::size_t count_of(const ChartPanel& panel, Mark mark, std::size_t before) {
-    return static_cast<std::size_t>(std::count_if(
-        panel.series.begin(), panel.series.begin() + static_cast<std::ptrdiff_t>(before),
-        [mark](const ChartSeries& s) { return s.mark == mark; }));
-}
-
-bool has_number(const ChartPanel& panel) {
-    return std::any_of(panel.series.begin(), panel.series.end(), [&panel](const ChartSeries& s) {
-        for (std::size_t i = 0; i < s.y.size(); ++i) {
-            if (drawable(s.x[i], panel.log_x) && drawable(s.y[i], panel.log_y)) {
-                return true;
-            }
-        }
-        return false;
-    });
-}
-
-/// The key: beside what stands above the axes when it fits, else in rows of its own.
+/// The key: next to what stands above the axes when it fits, else in rows below it.
 struct Key {
     std::size_t columns = 0;
     std::size_t rows = 0;
@@ -86,9 +48,9 @@ Key key_of(const ChartPanel& panel, double width_px) {
         return {};
     }
     const double entry = widest + kSample_px;
-    const double beside = panel.y_label.empty() ? text_width_px(panel.title, kPanelTitle_px)
-                                                : text_width_px(panel.y_label, kChartSmall_px);
-    if (beside > 0.0 && beside + entries * entry <= width_px) {
+    const double inline_key = panel.y_label.empty() ? text_width_px(panel.title, kPanelTitle_px)
+                                                    : text_width_px(panel.y_label, kChartSmall_px);
+    if (inline_key > 0.0 && inline_key + entries * entry <= width_px) {
         return {static_cast<std::size_t>(entries), 0};
     }
     const double columns = std::clamp(std::floor(width_px / entry), 1.0, entries);
@@ -108,11 +70,11 @@ std::vector<ChartLine> within(std::vector<ChartLine> lines, const Range& axis, b
 }
 
 /// Names over the axes: moments, and stretches. Where they do not fit at their places, numbers and
-/// letters stand there, and a list above says what they mean.
+/// letters stand there, and a list above explains them.
 struct PanelNames {
     std::vector<ChartLine> moments = {};  ///< within the axes, from left to right
     std::vector<double> moment_px = {};   ///< from the plot's left
-    bool numbered = false;                ///< moments do not fit beside each other
+    bool numbered = false;                ///< moments do not fit next to each other
     std::vector<std::string> letters =
         {};  ///< of each stretch; empty: its name fits, or it has none
     std::vector<std::string> list = {};
@@ -239,8 +201,8 @@ public:
             sketch_.label(box_.left_px, box_.top_px - 16.0, panel_.y_label, kChartSmall_px,
                           panel_.title.empty() ? colours::kInk : colours::kFaint);
         }
-        levels();
-        value_names();
+        name_values(panel_.levels, colours::kLevel, true);
+        name_values(panel_.y_names, colours::kFaint, false);
         moments(y);
         stretches();
         axes();
@@ -252,52 +214,40 @@ private:
         return box_.bottom_px - share_of(value, y_, panel_.log_y) * box_.height_px();
     }
 
-    /// gnuplot's, in a place of its own. @return where its rows end
+    /// gnuplot's key. @return where its rows end
     double key(double top_px) {
         const Key key = key_of(panel_, box_.width_px());
         if (key.columns == 0) {
             sketch_.add("unset key\n");
             return top_px;
         }
-        const double beside_px = panel_.y_label.empty() ? top_px - kLine_px : box_.top_px - 27.0;
-        const bool beside = key.rows == 0;
+        const double next_px = panel_.y_label.empty() ? top_px - kLine_px : box_.top_px - 27.0;
+        const bool inline_key = key.rows == 0;
         sketch_.add(
             "set key at {} {} top horizontal maxcols {} Left reverse samplen 2 spacing KEY_ROW "
             "noenhanced font "
             "'DejaVu Sans,{}' textcolor rgb '{}'\n",
-            sketch_.at(beside ? box_.right_px : box_.left_px - 8.0, beside ? beside_px : top_px),
-            beside ? "right" : "left", key.columns, kChartSmall_px, colours::kInk);
+            sketch_.at(inline_key ? box_.right_px : box_.left_px - 8.0,
+                       inline_key ? next_px : top_px),
+            inline_key ? "right" : "left", key.columns, kChartSmall_px, colours::kInk);
         return top_px + kLine_px * static_cast<double>(key.rows);
     }
 
-    /// Lines at their heights, names at the right, moved apart where they would touch.
-    void levels() {
-        std::vector<ChartLine> shown = within(panel_.levels, y_, panel_.log_y);
+    /// Names of values at the right, at their heights, moved apart where they would touch: levels,
+    /// with their lines, or what stands in place of the axis' numbers.
+    void name_values(const std::vector<ChartLine>& lines, const char* colour, bool with_lines) {
+        std::vector<ChartLine> shown = within(lines, y_, panel_.log_y);
         std::reverse(shown.begin(), shown.end());  // from the top
         std::vector<double> wanted;
-        for (const ChartLine& level : shown) {
-            const double y = wanted.emplace_back(y_px(level.at));
-            sketch_.line(box_.left_px, y, box_.right_px, y, colours::kLevel, 1.2, "back dt (8,5)");
-        }
-        const auto placed = spread(wanted, kLevelLine_px, box_.top_px, box_.bottom_px);
-        for (std::size_t i = 0; i < shown.size(); ++i) {
-            sketch_.label(box_.right_px + 10.0, placed[i], shown[i].label, kChartSmall_px,
-                          colours::kLevel);
-        }
-    }
-
-    /// In place of the axis' numbers: what its values mean.
-    void value_names() {
-        std::vector<ChartLine> shown = within(panel_.y_names, y_, panel_.log_y);
-        std::reverse(shown.begin(), shown.end());
-        std::vector<double> wanted;
         for (const ChartLine& value : shown) {
-            wanted.push_back(y_px(value.at));
+            const double y = wanted.emplace_back(y_px(value.at));
+            if (with_lines) {
+                sketch_.line(box_.left_px, y, box_.right_px, y, colour, 1.2, "back dt (8,5)");
+            }
         }
         const auto placed = spread(wanted, kLevelLine_px, box_.top_px, box_.bottom_px);
         for (std::size_t i = 0; i < shown.size(); ++i) {
-            sketch_.label(box_.right_px + 10.0, placed[i], shown[i].label, kChartSmall_px,
-                          colours::kFaint);
+            sketch_.label(box_.right_px + 10.0, placed[i], shown[i].label, kChartSmall_px, colour);
         }
     }
 
@@ -380,7 +330,8 @@ private:
     }
 
     void plot() {
-        if (!has_number(panel_)) {
+        const std::string clauses = plot_of(panel_, data_, x_, y_, box_.width_px());
+        if (clauses.empty()) {
             sketch_.label(0.5 * (box_.left_px + box_.right_px),
                           0.5 * (box_.top_px + box_.bottom_px), "no data", kPanelTitle_px,
                           colours::kFaint, "center");
@@ -389,81 +340,7 @@ private:
                         0.5 * (y_.low + y_.high));
             return;
         }
-        for (std::size_t i = 0; i < panel_.series.size(); ++i) {
-            series(i);
-        }
-        sketch_.add("plot {}\n", clauses_);
-    }
-
-    /// @param title  in the key; empty: none
-    void clause(int block, const std::string& columns, const std::string& style,
-                const std::string& title) {
-        clauses_ += fmt::format("{}DATA index {} using {} with {} {}",
-                                clauses_.empty() ? "" : ", \\\n  ", block, columns, style,
-                                title.empty() ? "notitle" : "title " + gnuplot::literal(title));
-    }
-
-    void series(std::size_t index) {
-        const ChartSeries& all = panel_.series[index];
-        const bool line = (all.mark == Mark::line || all.mark == Mark::dashes) &&
-                          std::is_sorted(all.x.begin(), all.x.end());
-        // More points cannot be told apart on the page.
-        const ChartSeries s =
-            line ? thinned(all, x_, static_cast<std::size_t>(box_.width_px())) : all;
-        const bool errors = !s.low.empty();
-        const int block =
-            errors ? data_.add({&s.x, &s.y, &s.low, &s.high}) : data_.add({&s.x, &s.y});
-        const std::string colour = colour_of(panel_, index);
-        // An interval that reaches below a logarithmic axis ends on it.
-        const std::string low =
-            panel_.log_y ? fmt::format("($3>{0:.10g}?$3:{0:.10g})", y_.low) : "3";
-        const std::string pen = fmt::format("lc rgb '{}' lw {}", colour, s.width);
-        switch (s.mark) {
-            case Mark::line: clause(block, "1:2", "lines " + pen, s.name); return;
-            case Mark::dashes: clause(block, "1:2", "lines dt (9,5) " + pen, s.name); return;
-            case Mark::steps: clause(block, "1:2", "steps " + pen, s.name); return;
-            case Mark::points:
-                clause(
-                    block, errors ? "1:2:" + low + ":4" : "1:2",
-                    fmt::format("{} pt {} ps 0.9*MARK lw 1.6 lc rgb '{}'",
-                                errors ? "yerrorbars" : "points",
-                                kShapes[count_of(panel_, Mark::points, index) % std::size(kShapes)],
-                                colour),
-                    s.name);
-                return;
-            case Mark::bars: break;
-        }
-        const std::string x = fmt::format("($1+{:.10g})", bar_shift(index));
-        clause(block, fmt::format("{}:2:({:.10g})", x, 0.94 * bar_width()),
-               fmt::format("boxes fs solid noborder fc rgb '{}'", colour), s.name);
-        if (errors) {
-            clause(
-                block, fmt::format("{}:{}:(0):($4-{})", x, low, low == "3" ? "$3" : low),
-                fmt::format("vectors heads size screen 0.005,90 lw 1.6 lc rgb '{}'", colours::kInk),
-                "");
-        }
-    }
-
-    [[nodiscard]] double bar_count() const {
-        return static_cast<double>(count_of(panel_, Mark::bars, panel_.series.size()));
-    }
-
-    /// Width of a bar: what is between neighbours is shared by the series.
-    [[nodiscard]] double bar_width() const {
-        double pitch = panel_.categories.empty() ? x_.high - x_.low : 1.0;
-        for (const ChartSeries& s : panel_.series) {
-            for (std::size_t i = 1; s.mark == Mark::bars && i < s.x.size(); ++i) {
-                const double apart = std::abs(s.x[i] - s.x[i - 1]);
-                pitch = apart > 0.0 ? std::min(pitch, apart) : pitch;
-            }
-        }
-        const double most = kMostBar_px / box_.width_px() * (x_.high - x_.low);
-        return std::min(0.76 * pitch / bar_count(), most);
-    }
-
-    [[nodiscard]] double bar_shift(std::size_t index) const {
-        return bar_width() * (static_cast<double>(count_of(panel_, Mark::bars, index)) -
-                              0.5 * (bar_count() - 1.0));
+        sketch_.add("plot {}\n", clauses);
     }
 
     Sketch& sketch_;
@@ -473,7 +350,6 @@ private:
     Range x_;
     Range y_;
     PanelNames names_;
-    std::string clauses_;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ struct ChartData {
     int add(std::initializer_list<const std::vector<double>*> columns, std::size_t row_length = 0);
 };
 
-/// Room around the axes: at their right for names of levels or a colour bar, above for title, key
+/// Space around the axes: at their right for names of levels or a colour bar, above for title, key
 /// and names, below for numbers and the name of the axis.
 [[nodiscard]] double right_px(const ChartPanel& panel);
 [[nodiscard]] double right_px(const HeatPanel& panel);
@@ -40,6 +40,11 @@ struct ChartData {
 /// Draws with the axes in `box`.
 void draw_panel(Sketch& sketch, ChartData& data, const ChartPanel& panel, const Box& box);
 void draw_panel(Sketch& sketch, ChartData& data, const HeatPanel& panel, const Box& box);
+
+/// What gnuplot's `plot` is followed by; empty where no series has a number.
+/// @param x, y  the axes, of `width_px`
+[[nodiscard]] std::string plot_of(const ChartPanel& panel, ChartData& data, const Range& x,
+                                  const Range& y, double width_px);
 
 /// Lines of text from `top_px` down. @return where they end
 double draw_lines(Sketch& sketch, const std::vector<std::string>& lines, double left_px,

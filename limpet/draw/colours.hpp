@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The colours of every chart and map: restrained, told apart by lightness as well as by hue
+/// The colours of every chart and map: restrained, different in lightness as well as in hue
 /// (Okabe and Ito's set, toned down).
 namespace limpet::draw::colours {
 

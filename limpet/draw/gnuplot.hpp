@@ -33,7 +33,7 @@ private:
 ///         does not accept the script
 void run(const std::filesystem::path& folder, const std::string& script);
 
-/// Asks before long work whose figures come last.
+/// Checks before long work whose figures come last.
 /// @throws NotInstalled when there is no gnuplot
 void must_be_installed();
 

@@ -1,14 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/draw/offscreen.hpp"
 
+#include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <fmt/format.h>
 
+#include <string>
+
 #include "limpet/core/errors.hpp"
-#include "limpet/draw/egl.hpp"
+#include "limpet/loaded/library.hpp"
 
 namespace limpet::draw {
 namespace {
+
+/// What we use of EGL, under its own names and with the types of its header.
+struct Egl {
+    /// @throws NotInstalled naming the packages
+    explicit Egl(const std::string& file);
+
+    decltype(&::eglBindAPI) eglBindAPI = nullptr;
+    decltype(&::eglChooseConfig) eglChooseConfig = nullptr;
+    decltype(&::eglCreateContext) eglCreateContext = nullptr;
+    decltype(&::eglDestroyContext) eglDestroyContext = nullptr;
+    decltype(&::eglGetError) eglGetError = nullptr;
+    decltype(&::eglGetProcAddress) eglGetProcAddress = nullptr;
+    decltype(&::eglInitialize) eglInitialize = nullptr;
+    decltype(&::eglMakeCurrent) eglMakeCurrent = nullptr;
+};
+
+Egl::Egl(const std::string& file) try {
+    const loaded::Library library(file);
+    library.take(eglBindAPI, "eglBindAPI");
+    library.take(eglChooseConfig, "eglChooseConfig");
+    library.take(eglCreateContext, "eglCreateContext");
+    library.take(eglDestroyContext, "eglDestroyContext");
+    library.take(eglGetError, "eglGetError");
+    library.take(eglGetProcAddress, "eglGetProcAddress");
+    library.take(eglInitialize, "eglInitialize");
+    library.take(eglMakeCurrent, "eglMakeCurrent");
+} catch (const NotInstalled& problem) {
+    throw NotInstalled(
+        fmt::format("EGL is not there, which pictures of the vehicle need (apt-get install libegl1 "
+                    "libgl1-mesa-dri): {}",
+                    problem.what()));
+}
+
+/// EGL, loaded by the first call. From any thread.
+const Egl& egl() {
+    static const Egl loaded("libEGL.so.1");
+    return loaded;
+}
 
 [[noreturn]] void give_up(const char* what) {
     throw NotInstalled(
@@ -28,6 +69,10 @@ EGLDisplay surfaceless_display() {
 }
 
 }  // namespace
+
+void require_egl() {
+    (void)egl();
+}
 
 OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
     if (display_ == EGL_NO_DISPLAY || egl().eglInitialize(display_, nullptr, nullptr) != EGL_TRUE) {

@@ -3,6 +3,10 @@
 
 namespace limpet::draw {
 
+/// Loads EGL where that has not been done.
+/// @throws NotInstalled naming the packages when it is not there
+void require_egl();
+
 /// OpenGL without a screen: an EGL context, in use on the thread that made it. Mesa's software
 /// renderer will do; no display server and no graphics card are needed.
 class OffscreenContext {

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/core/words.hpp"
-#include "limpet/core/xml_marks.hpp"
 
 namespace limpet::draw {
 namespace picture {
@@ -29,167 +29,68 @@ constexpr std::size_t kMostPoints = 3'000'000;
 constexpr std::size_t kLongestName = 200;
 constexpr double kLargest = 1e6;
 
-enum class Kind {
-    name,
-    word,     // one of `words`
-    numbers,  // `low` to `high` of them
-    whole,    // a number from `low` to `high`
-    points,   // a mesh's, three numbers each
-    corners,  // a mesh's triangles, three of its points each
-    not_seen  // physics: known, but not of a picture
-};
-
-struct Attribute {
-    std::string_view name;
-    Kind kind = Kind::numbers;
-    int low = 1;
-    int high = 1;
-    std::string_view words = {};  ///< " box mesh "
-};
-
 struct Element {
     std::string_view name;
     std::string_view parents;  ///< " body worldbody "
-    int most = 1;              ///< in a model
-    bool seen = true;          ///< else it is known, but not of a picture
-    std::vector<Attribute> attributes;
+    int most;                  ///< in a model
+    bool seen;                 ///< else it is known, but not of a picture
+    /// NAME:WHAT each. WHAT is a `name`; one of some words, `=a|b`; so many numbers, `3` or `1-3`;
+    /// a whole number, `0..5`; a mesh's `points`, three numbers each, or `corners`, three of its
+    /// points each; `-`: physics, which is known but not of a picture.
+    std::string_view attributes;
 };
 
-constexpr std::string_view kBool = " true false ";
-
-Attribute numbers(std::string_view name, int count, int most = 0) {
-    return {name, Kind::numbers, count, std::max(count, most)};
-}
-Attribute whole(std::string_view name, int low, int high) {
-    return {name, Kind::whole, low, high};
-}
-Attribute text(std::string_view name) {
-    return {name, Kind::name};
-}
-Attribute word(std::string_view name, std::string_view words) {
-    return {name, Kind::word, 0, 0, words};
-}
-Attribute unseen(std::string_view name) {
-    return {name, Kind::not_seen};
-}
-
 /// What models::write_mjcf writes, and what it wrote before.
-const std::vector<Element>& elements() {
-    constexpr int kMostSide_px = 2048;
-    static const std::vector<Element> all = {
-        {"mujoco", "", 1, true, {text("model")}},
-        {"compiler",
-         " mujoco ",
-         1,
-         true,
-         {word("angle", " radian "), word("inertiafromgeom", " false ")}},
-        {"option",
-         " mujoco ",
-         1,
-         false,
-         {unseen("timestep"), unseen("integrator"), unseen("solver"), unseen("cone"),
-          unseen("impratio"), unseen("jacobian"), unseen("collision"), unseen("gravity")}},
-        {"size", " mujoco ", 1, false, {unseen("njmax"), unseen("nconmax"), unseen("nstack")}},
-        {"default", " mujoco ", 1, false, {}},
-        {"contact", " mujoco ", 1, false, {}},
-        {"pair",
-         " contact default ",
-         20,
-         false,
-         {unseen("geom1"), unseen("geom2"), unseen("friction"), unseen("solref"),
-          unseen("condim")}},
-        {"visual", " mujoco ", 1, true, {}},
-        {"global", " visual ", 1, true, {whole("offwidth", 1, 8192), whole("offheight", 1, 8192)}},
-        {"quality",
-         " visual ",
-         1,
-         true,
-         {whole("shadowsize", 0, 8192), whole("offsamples", 0, 16), whole("numslices", 3, 128)}},
-        {"headlight",
-         " visual ",
-         1,
-         true,
-         {numbers("ambient", 3), numbers("diffuse", 3), numbers("specular", 3)}},
-        {"map",
-         " visual ",
-         1,
-         true,
-         {numbers("znear", 1), numbers("zfar", 1), numbers("shadowclip", 1)}},
-        {"statistic", " mujoco ", 1, true, {numbers("extent", 1), numbers("center", 3)}},
-        {"asset", " mujoco ", 1, true, {}},
-        {"texture",
-         " asset ",
-         8,
-         true,
-         {text("name"), word("type", " 2d skybox "), word("builtin", " gradient checker flat "),
-          word("mark", " none edge random "), numbers("random", 1), numbers("rgb1", 3),
-          numbers("rgb2", 3), numbers("markrgb", 3), whole("width", 1, kMostSide_px),
-          whole("height", 1, kMostSide_px)}},
-        {"material",
-         " asset ",
-         100,
-         true,
-         {text("name"), text("texture"), word("texuniform", kBool), numbers("texrepeat", 2),
-          numbers("specular", 1), numbers("shininess", 1), numbers("reflectance", 1),
-          numbers("rgba", 4)}},
-        {"mesh",
-         " asset ",
-         600,
-         true,
-         {text("name"), {"vertex", Kind::points}, {"face", Kind::corners}}},
-        {"worldbody", " mujoco ", 1, true, {}},
-        {"light",
-         " worldbody ",
-         8,
-         true,
-         {text("name"), word("directional", kBool), word("castshadow", kBool), numbers("pos", 3),
-          numbers("dir", 3), numbers("diffuse", 3), numbers("specular", 3)}},
-        {"camera",
-         " worldbody ",
-         8,
-         true,
-         {text("name"), numbers("pos", 3), numbers("fovy", 1), numbers("xyaxes", 6)}},
-        {"body",
-         " worldbody body ",
-         16,
-         true,
-         {text("name"), numbers("pos", 3), numbers("quat", 4), word("mocap", kBool)}},
-        {"freejoint", " body ", 1, true, {text("name")}},
-        {"joint",
-         " body default ",
-         10,
-         true,
-         {text("name"), word("type", " slide hinge "), numbers("axis", 3), unseen("stiffness"),
-          unseen("springref"), unseen("damping"), unseen("limited"), unseen("range"),
-          unseen("solreflimit")}},
-        {"inertial",
-         " body ",
-         16,
-         false,
-         {unseen("pos"), unseen("mass"), unseen("diaginertia"), unseen("fullinertia")}},
-        {"geom",
-         " worldbody body default ",
-         1200,
-         true,
-         {text("name"), word("type", " plane sphere cylinder box mesh "), numbers("size", 1, 3),
-          numbers("pos", 3), numbers("quat", 4), whole("group", 0, 5), text("material"),
-          numbers("rgba", 4), text("mesh"), unseen("contype"), unseen("conaffinity")}},
-        {"site",
-         " body spatial ",
-         50,
-         true,
-         {text("name"), text("site"), numbers("pos", 3), numbers("size", 1, 3),
-          whole("group", 0, 5)}},
-        {"tendon", " mujoco ", 1, true, {}},
-        {"spatial", " tendon ", 4, true, {text("name"), numbers("width", 1), numbers("rgba", 4)}},
-    };
-    return all;
-}
+constexpr Element kElements[] = {
+    {"mujoco", "", 1, true, "model:name"},
+    {"compiler", " mujoco ", 1, true, "angle:=radian inertiafromgeom:=false"},
+    {"option", " mujoco ", 1, false,
+     "timestep:- integrator:- solver:- cone:- impratio:- jacobian:- collision:- gravity:-"},
+    {"size", " mujoco ", 1, false, "njmax:- nconmax:- nstack:-"},
+    {"default", " mujoco ", 1, false, ""},
+    {"contact", " mujoco ", 1, false, ""},
+    {"pair", " contact default ", 20, false, "geom1:- geom2:- friction:- solref:- condim:-"},
+    {"visual", " mujoco ", 1, true, ""},
+    {"global", " visual ", 1, true, "offwidth:1..8192 offheight:1..8192"},
+    {"quality", " visual ", 1, true, "shadowsize:0..8192 offsamples:0..16 numslices:3..128"},
+    {"headlight", " visual ", 1, true, "ambient:3 diffuse:3 specular:3"},
+    {"map", " visual ", 1, true, "znear:1 zfar:1 shadowclip:1"},
+    {"statistic", " mujoco ", 1, true, "extent:1 center:3"},
+    {"asset", " mujoco ", 1, true, ""},
+    {"texture", " asset ", 8, true,
+     "name:name type:=2d|skybox builtin:=gradient|checker|flat mark:=none|edge|random random:1 "
+     "rgb1:3 rgb2:3 markrgb:3 width:1..2048 height:1..2048"},
+    {"material", " asset ", 100, true,
+     "name:name texture:name texuniform:=true|false texrepeat:2 specular:1 shininess:1 "
+     "reflectance:1 rgba:4"},
+    {"mesh", " asset ", 600, true, "name:name vertex:points face:corners"},
+    {"worldbody", " mujoco ", 1, true, ""},
+    {"light", " worldbody ", 8, true,
+     "name:name directional:=true|false castshadow:=true|false pos:3 dir:3 diffuse:3 specular:3"},
+    {"camera", " worldbody ", 8, true, "name:name pos:3 fovy:1 xyaxes:6"},
+    {"body", " worldbody body ", 16, true, "name:name pos:3 quat:4 mocap:=true|false"},
+    {"freejoint", " body ", 1, true, "name:name"},
+    {"joint", " body default ", 10, true,
+     "name:name type:=slide|hinge axis:3 stiffness:- springref:- damping:- limited:- range:- "
+     "solreflimit:-"},
+    {"inertial", " body ", 16, false, "pos:- mass:- diaginertia:- fullinertia:-"},
+    {"geom", " worldbody body default ", 1200, true,
+     "name:name type:=plane|sphere|cylinder|box|mesh size:1-3 pos:3 quat:4 group:0..5 "
+     "material:name rgba:4 mesh:name contype:- conaffinity:-"},
+    {"site", " body spatial ", 50, true, "name:name site:name pos:3 size:1-3 group:0..5"},
+    {"tendon", " mujoco ", 1, true, ""},
+    {"spatial", " tendon ", 4, true, "name:name width:1 rgba:4"},
+};
 
-template <class All>
-auto named(const All& all, std::string_view name) {
-    return std::find_if(all.begin(), all.end(),
-                        [name](const auto& one) { return one.name == name; });
+/// @return WHAT an attribute holds; empty: the element has none of that name
+std::string_view held_by(const Element& element, std::string_view name) {
+    Words attributes(element.attributes);
+    for (std::string_view one = attributes.next(); !one.empty(); one = attributes.next()) {
+        if (one.size() > name.size() && one.starts_with(name) && one[name.size()] == ':') {
+            return one.substr(name.size() + 1);
+        }
+    }
+    return {};
 }
 
 class PictureModel {
@@ -231,9 +132,9 @@ private:
             if (node.type() != pugi::node_element) {
                 continue;  // blanks, comments
             }
-            const auto element = named(elements(), node.name());
+            const Element* element = find_named(kElements, node.name());
             const std::string within = fmt::format(" {} ", parent);
-            if (element == elements().end() ||
+            if (element == nullptr ||
                 (parent.empty() ? !element->parents.empty()
                                 : element->parents.find(within) == within.npos)) {
                 fail(node, fmt::format("<{}> in <{}>: no model that limpet writes has it",
@@ -245,7 +146,7 @@ private:
             }
             const bool seen = element->seen && to;
             pugi::xml_node made = seen ? to.append_child(node.name()) : pugi::xml_node();
-            if (seen && element->name == "geom") {  // hulls are not asked for
+            if (seen && element->name == "geom") {  // no hulls
                 made.append_attribute("contype") = 0;
                 made.append_attribute("conaffinity") = 0;
             }
@@ -263,13 +164,13 @@ private:
     void copy_attributes(const Element& element, pugi::xml_node node, pugi::xml_node made) {
         std::size_t points = 0;
         for (const pugi::xml_attribute given : node.attributes()) {
-            const auto attribute = named(element.attributes, given.name());
-            if (attribute == element.attributes.end()) {
+            const std::string_view held = held_by(element, given.name());
+            if (held.empty()) {
                 fail(node, fmt::format("<{}> {}: no model that limpet writes has it", element.name,
                                        word_of(given.name())));
             }
-            const std::string value = checked(element, *attribute, node, given.value(), points);
-            if (made && attribute->kind != Kind::not_seen) {
+            if (held != "-") {
+                const std::string value = checked(element, held, node, given, points);
                 made.append_attribute(given.name()) = value.c_str();
             }
         }
@@ -279,86 +180,73 @@ private:
         const std::string quoted = in_quotes(text);
         return quoted.substr(1, quoted.size() - 2);
     }
-    [[noreturn]] void refuse(const Element& element, const Attribute& attribute,
-                             pugi::xml_node node, const std::string& allowed) const {
-        fail(node,
-             fmt::format("<{}> {}={}: must be {}", element.name, attribute.name,
-                         in_quotes(node.attribute(std::string(attribute.name).c_str()).value()),
-                         allowed));
-    }
-
     /// @param points  of the mesh whose attributes these are
-    std::string checked(const Element& element, const Attribute& attribute, pugi::xml_node node,
-                        const char* value, std::size_t& points) {
-        const auto refused = [&](const std::string& allowed) {
-            refuse(element, attribute, node, allowed);
+    std::string checked(const Element& element, std::string_view held, pugi::xml_node node,
+                        pugi::xml_attribute given, std::size_t& points) {
+        const std::string_view value = given.value();
+        const auto refuse = [&](const std::string& allowed) {
+            fail(node, fmt::format("<{}> {}={}: must be {}", element.name, given.name(),
+                                   in_quotes(value), allowed));
         };
-        switch (attribute.kind) {
-            case Kind::not_seen: return {};
-            case Kind::name: {
-                const std::string_view name = value;
-                if (name.size() > kLongestName || !is_utf8(name) ||
-                    std::any_of(name.begin(), name.end(),
-                                [](char c) { return c >= 0 && c < ' '; })) {
-                    refused(fmt::format("a name of at most {} letters", kLongestName));
-                }
-                return value;
+        if (held == "name") {
+            if (value.size() > kLongestName || !is_utf8(value) ||
+                std::any_of(value.begin(), value.end(), [](char c) { return c >= 0 && c < ' '; })) {
+                refuse(fmt::format("a name of at most {} letters", kLongestName));
             }
-            case Kind::word:
-                if (*value == '\0' || std::string_view(value).find(' ') != std::string_view::npos ||
-                    attribute.words.find(fmt::format(" {} ", value)) == attribute.words.npos) {
-                    refused("one of" +
-                            std::string(attribute.words.substr(0, attribute.words.size() - 1)));
-                }
-                return value;
-            case Kind::numbers: {
-                std::vector<double> found =
-                    numbers_in(value, static_cast<std::size_t>(attribute.high) + 1);
-                if (found.size() < static_cast<std::size_t>(attribute.low) ||
-                    found.size() > static_cast<std::size_t>(attribute.high) || !within(found)) {
-                    refused(fmt::format("{} numbers within {:g}", attribute.high, kLargest));
-                }
-                return written(found);
+            return std::string(value);
+        }
+        if (held.front() == '=') {
+            std::string words = fmt::format(" {} ", held.substr(1));
+            std::replace(words.begin(), words.end(), '|', ' ');
+            if (value.empty() || value.find(' ') != value.npos ||
+                words.find(fmt::format(" {} ", value)) == words.npos) {
+                refuse("one of" + words.substr(0, words.size() - 1));
             }
-            case Kind::whole: {
-                const std::vector<double> found = numbers_in(value, 2);
-                if (found.size() != 1 ||
-                    !(found[0] >= attribute.low && found[0] <= attribute.high) ||
-                    found[0] != std::floor(found[0])) {
-                    refused(
-                        fmt::format("a whole number from {} to {}", attribute.low, attribute.high));
-                }
-                return written(found);
+            return std::string(value);
+        }
+        constexpr std::size_t kLongest = 6;  // of the others: xyaxes
+        const std::size_t longest = held == "points"    ? 3 * kMostPoints
+                                    : held == "corners" ? 3 * kMostTriangles
+                                                        : kLongest;
+        const std::vector<double> found = numbers_in(value, longest + 1);
+        if (held == "points") {
+            points = found.size() / 3;
+            points_ += points;
+            if (found.size() % 3 != 0 || points_ > kMostPoints || !within(found)) {
+                refuse(fmt::format("points of three numbers within {:g}, {} in all", kLargest,
+                                   kMostPoints));
             }
-            case Kind::points: {
-                const std::vector<double> found = numbers_in(value, 3 * kMostPoints + 1);
-                points = found.size() / 3;
-                points_ += points;
-                if (found.size() % 3 != 0 || points_ > kMostPoints || !within(found)) {
-                    refused(fmt::format("points of three numbers within {:g}, {} in all", kLargest,
-                                        kMostPoints));
-                }
-                return written(found);
+        } else if (held == "corners") {
+            const auto is_point = [&](double i) {
+                return i >= 0.0 && i < static_cast<double>(points) && i == std::floor(i);
+            };
+            triangles_ += found.size() / 3;
+            if (found.empty() || found.size() % 3 != 0 || triangles_ > kMostTriangles ||
+                !std::all_of(found.begin(), found.end(), is_point)) {
+                refuse(fmt::format("triangles of three of its {} points, {} in all", points,
+                                   kMostTriangles));
             }
-            case Kind::corners: {
-                const std::vector<double> found = numbers_in(value, 3 * kMostTriangles + 1);
-                const auto is_point = [&](double i) {
-                    return i >= 0.0 && i < static_cast<double>(points) && i == std::floor(i);
-                };
-                triangles_ += found.size() / 3;
-                if (found.empty() || found.size() % 3 != 0 || triangles_ > kMostTriangles ||
-                    !std::all_of(found.begin(), found.end(), is_point)) {
-                    refused(fmt::format("triangles of three of its {} points, {} in all", points,
-                                        kMostTriangles));
-                }
-                return written(found);
+        } else if (const std::size_t dots = held.find(".."); dots != held.npos) {
+            const double least = *number_of(held.substr(0, dots)),
+                         most = *number_of(held.substr(dots + 2));
+            if (found.size() != 1 || !(found[0] >= least && found[0] <= most) ||
+                found[0] != std::floor(found[0])) {
+                refuse(fmt::format("a whole number from {:g} to {:g}", least, most));
+            }
+        } else {
+            const double least = *number_of(held.substr(0, 1)),
+                         most = *number_of(held.substr(held.size() - 1));
+            const auto count = static_cast<double>(found.size());
+            if (count < least || count > most || !within(found)) {
+                refuse(fmt::format("{:g} numbers within {:g}", most, kLargest));
             }
         }
-        return {};
+        return written(found);
     }
 
-    /// @param most  that are read @return what is no number is not finite
-    static std::vector<double> numbers_in(const char* value, std::size_t most) {
+    /// What is no number is not finite.
+    /// @param most  the rest is left out
+    static std::vector<double> numbers_in(std::string_view value, std::size_t most) {
         std::vector<double> found;
         Words words(value);
         for (std::string_view word = words.next(); !word.empty() && found.size() < most;

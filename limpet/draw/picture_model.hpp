@@ -7,8 +7,8 @@ namespace limpet::draw {
 
 /// What a picture needs of the MJCF that a recording carries, written anew: the elements and
 /// attributes that models::write_mjcf puts in, each of its kind and within its bounds, and nothing
-/// else. MuJoCo sees no byte of the recording's own text, no name of a file, and nothing that says
-/// how much memory to take.
+/// else. MuJoCo sees no byte of the recording's own text, no name of a file, and nothing that
+/// determines how much memory to take.
 /// @param mjcf  whole, from anybody
 /// @throws InputError "model.xml:line: what": not XML, larger than 200 MB, an element, an attribute
 ///         or a value that no such model has, more of one than a model has

@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/draw/egl.hpp"
-#include "limpet/draw/mjcf.hpp"
+#include "limpet/core/one_line.hpp"
 #include "limpet/draw/offscreen.hpp"
+#include "limpet/draw/picture_model.hpp"
 #include "limpet/loaded/mujoco.hpp"
 
 namespace limpet::draw {
@@ -24,7 +25,7 @@ constexpr float kBlur = 0.30F;  // how much a turning propeller hides
 /// One line for all that is not there.
 void require_libraries() {
     std::string missing;
-    for (void (*const load)() : {+[] { (void)mujoco(); }, +[] { (void)egl(); }}) {
+    for (void (*const load)() : {+[] { (void)mujoco(); }, &require_egl}) {
         try {
             load();
         } catch (const NotInstalled& problem) {
@@ -36,15 +37,59 @@ void require_libraries() {
     }
 }
 
+struct DeleteModel {
+    void operator()(mjModel* model) const { mujoco().mj_deleteModel(model); }
+};
+using MujocoModel = std::unique_ptr<mjModel, DeleteModel>;
+
+/// Files that MuJoCo finds in memory.
+class Files {
+public:
+    Files() { mujoco().mj_defaultVFS(files_.get()); }
+    ~Files() { mujoco().mj_deleteVFS(files_.get()); }
+    Files(const Files&) = delete;
+    Files& operator=(const Files&) = delete;
+
+    [[nodiscard]] mjVFS* get() const { return files_.get(); }
+    /// @return whether it was taken
+    [[nodiscard]] bool add(const char* name, const std::string& text) const {
+        if (mujoco().mj_makeEmptyFileVFS(get(), name, static_cast<int>(text.size())) != 0) {
+            return false;
+        }
+        std::memcpy(files_->filedata[mujoco().mj_findFileVFS(get(), name)], text.data(),
+                    text.size());
+        return true;
+    }
+
+private:
+    std::unique_ptr<mjVFS> files_ = std::make_unique<mjVFS>();
+};
+
+/// The model.xml of a recording, compiled: what a picture needs of it (picture_model.hpp).
+/// @throws InputError as picture_model, or with MuJoCo's words
+MujocoModel compile_mjcf(const std::string& mjcf) {
+    constexpr const char* kName = "model.xml";
+    const Files files;
+    if (!files.add(kName, picture_model(mjcf))) {
+        throw InputError("model.xml: too large");
+    }
+    char message[1000] = "";
+    MujocoModel model(mujoco().mj_loadXML(kName, files.get(), message, sizeof message));
+    if (!model) {
+        throw InputError(fmt::format("model.xml: {}", one_line(message)));
+    }
+    return model;
+}
+
 using Pixels = std::vector<std::uint8_t>;  // three a pixel, rows from bottom to top
 
-/// The model is somebody's, and so is what MuJoCo finds in it.
+/// The model is the user's: what MuJoCo finds in it is bad input.
 void throw_error(const char* message) {
     throw InputError(std::string("MuJoCo: ") + message);
 }
 void keep_silent(const char*) {}
 
-/// MuJoCo's hooks are the process's: they are ours as long as a stage stands.
+/// MuJoCo's hooks belong to the process: these are set as long as a stage exists.
 class ErrorHooks {
 public:
     ErrorHooks() : error_(*mujoco().mju_user_error), warning_(*mujoco().mju_user_warning) {

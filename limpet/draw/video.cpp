@@ -73,7 +73,7 @@ Video::Video(const std::filesystem::path& file, int width_px, int height_px, int
     }
     words.push_back(file.string());
 
-    // A socket, not a pipe: a write into one that nobody reads can be kept from being a signal.
+    // A socket, not a pipe: a write into one without a reader can be kept from raising a signal.
     int ends[2] = {-1, -1};
     require(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0, "two ends of a socket");
     const auto [child, problem] =
@@ -97,7 +97,7 @@ Video::~Video() {
     }
 }
 
-/// @return what waitpid() says
+/// @return the status of waitpid()
 int Video::end() {
     close(to_ffmpeg_);
     const int status = wait_for(child_);

@@ -9,7 +9,7 @@
 
 namespace limpet::draw {
 
-/// Asked before the pictures of a film are drawn, which takes minutes.
+/// Checks before the pictures of a film are drawn, which takes minutes.
 /// @throws NotInstalled where there is no ffmpeg on the PATH
 void require_ffmpeg();
 

@@ -11,7 +11,7 @@
 #include "limpet/face/stations.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/simulation/flight_log.hpp"
-#include "limpet/simulation/result_json.hpp"
+#include "limpet/simulation/flight_text.hpp"
 
 namespace limpet {
 
@@ -49,7 +49,7 @@ void require_same_vehicle(const simulation::FlightModel& ours,
     }
 }
 
-std::shared_ptr<const simulation::FlightModel> model_of(const HouseScenario& scenario,
+std::shared_ptr<const simulation::FlightModel> model_of(const InnerScenario& scenario,
                                                         const Stations& stations) {
     auto model = stations.plant == nullptr ? simulation::build_model(scenario)
                                            : simulation::build_model(scenario, stations.plant);
@@ -114,7 +114,7 @@ struct Flight::Inside {
     Stations stations;
     std::optional<GuidanceSeat> guidance;
     std::optional<CupSeat> cup;
-    std::optional<HouseFlight> flight;
+    std::optional<InnerFlight> flight;
     std::optional<simulation::FlightLog> log;
     std::vector<Event> events;
     std::size_t last = 0;  ///< events from here on are the last tick's
@@ -199,7 +199,7 @@ std::span<const Event> Flight::events() const {
 }
 
 Result Flight::result() const {
-    require(ended(), "the flight whose result is asked for has ended");
+    require(ended(), "the flight whose result is requested has ended");
     const simulation::FlightResult ended = inside_->result();
     Result result{.outcome = ended.outcome,
                   .reason = ended.reason,

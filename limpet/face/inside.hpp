@@ -12,12 +12,12 @@
 /// What the public face stands on: Limpet's own types that have the same names.
 namespace limpet {
 
-using HouseScenario = scenario::Scenario;
-using HouseFlight = simulation::Flight;
-using HouseRecording = record::Recording;
+using InnerScenario = scenario::Scenario;
+using InnerFlight = simulation::Flight;
+using InnerRecording = record::Recording;
 
 struct Scenario::Inside {
-    HouseScenario scenario;
+    InnerScenario scenario;
     std::string yaml;
     std::string wanted;
     std::vector<std::string> changes;

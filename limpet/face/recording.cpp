@@ -7,7 +7,7 @@
 namespace limpet {
 
 struct Recording::Inside {
-    HouseRecording recording;
+    InnerRecording recording;
     std::vector<PastEvent> events;
 };
 

@@ -36,7 +36,7 @@ Scenario Scenario::with(const std::vector<std::string>& changes) const {
 }
 
 Scenario load(const std::string& wanted, const std::vector<std::string>& changes) {
-    HouseScenario loaded = scenario::load_scenario(wanted, {.overrides = changes});
+    InnerScenario loaded = scenario::load_scenario(wanted, {.overrides = changes});
     std::string yaml = to_yaml(loaded);
     return Scenario(
         std::make_shared<const Scenario::Inside>(Scenario::Inside{.scenario = std::move(loaded),

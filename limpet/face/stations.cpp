@@ -42,14 +42,14 @@ void GuidanceSeat::exchange(const Readings& readings, const Estimate& estimate, 
     if (!due(std::llround(time_s * kTicksPerSecond), rate_Hz_)) {
         return;
     }
-    said_ =
+    output_ =
         guidance_->update({.readings = readings, .estimate = estimate, .time_s = time_s}, memory);
-    if (!is_finite(said_.setpoint)) {
-        throw InputError("guidance of your own: a set-point that is not finite");
+    if (!is_finite(output_.setpoint)) {
+        throw InputError("the user's guidance: a set-point that is not finite");
     }
-    guidance.setpoint = said_.setpoint;
-    if (said_.event) {
-        events.add(make_event(time_s, "guidance", *said_.event, said_.reason));
+    guidance.setpoint = output_.setpoint;
+    if (output_.event) {
+        events.add(make_event(time_s, "guidance", *output_.event, output_.reason));
     }
 }
 
@@ -77,7 +77,7 @@ suction::CupOutput CupSeat::step(const suction::CupModel& model, suction::CupSta
         air.leak_growth = state.leak_growth;
         const double next_Pa = pressure_->next_Pa(air, memory);
         if (std::isnan(next_Pa)) {
-            throw InputError("a cup pressure of your own: next_Pa() is not a number");
+            throw InputError("the user's cup pressure: next_Pa() is not a number");
         }
         state.mean_pressure_Pa = std::clamp(next_Pa, 0.0, air.ambient_Pa);
         state.status.pressure_Pa = state.mean_pressure_Pa;

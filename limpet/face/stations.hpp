@@ -8,7 +8,7 @@
 #include "limpet/guidance.hpp"
 #include "limpet/simulation/outside.hpp"
 
-// An outsider's stations where the loop has room for them.
+// A user's stations in the places that the loop has for them.
 namespace limpet {
 
 /// Guidance at its rate; what it remembers is here.
@@ -19,19 +19,19 @@ public:
     void exchange(const Readings& readings, const Estimate& estimate, double time_s,
                   guidance::PerchingMemory& guidance, guidance::EventList& events) override;
     [[nodiscard]] std::string obstacle() const override { return {}; }
-    /// That it has asked for.
-    [[nodiscard]] const std::optional<Outcome>& outcome() const { return said_.outcome; }
-    [[nodiscard]] std::string_view reason() const { return said_.reason; }
+    /// That it has commanded.
+    [[nodiscard]] const std::optional<Outcome>& outcome() const { return output_.outcome; }
+    [[nodiscard]] std::string_view reason() const { return output_.reason; }
 
     std::vector<double> memory;
 
 private:
     std::shared_ptr<const Guidance> guidance_;
     int rate_Hz_;
-    GuidanceOutput said_;
+    GuidanceOutput output_;
 };
 
-/// The cup as it is, but for the pressure while it is sealed.
+/// The cup as it is, except for the pressure while it is sealed.
 class CupSeat final : public simulation::ExternalCup {
 public:
     explicit CupSeat(std::shared_ptr<const CupPressure> pressure);

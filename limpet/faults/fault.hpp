@@ -58,7 +58,7 @@ enum class FaultKind {
     return name_of(kind);
 }
 
-/// What a kind asks for and does.
+/// What a kind needs and does.
 struct KindRow {
     FaultKind kind;
     std::string_view description;

@@ -104,37 +104,37 @@ void act(const FaultsModel& model, const Fault& fault, std::size_t rotors, Actin
         case FaultKind::pressure_stuck:
         case FaultKind::pressure_drifts:
         case FaultKind::battery_sensor_lost:
-        case FaultKind::estimate_drifts: break;  // of what is heard and believed: below
+        case FaultKind::estimate_drifts: break;  // of what is received and believed: below
     }
 }
 
 /// What one fault makes of what was sensed.
-/// @param told   what the vehicle knows
-/// @param heard  what it is to be told, if that is news
-void corrupt(const Fault& fault, const FaultsModel& model, double since_s, const Readings& told,
-             Readings& heard) {
+/// @param known     what the vehicle knows
+/// @param arriving  what it receives next, if that is newer
+void corrupt(const Fault& fault, const FaultsModel& model, double since_s, const Readings& known,
+             Readings& arriving) {
     const auto each_lidar = [&](auto change) {
         if (hits(fault, kLidarLeft)) {
-            change(heard.lidar_left, told.lidar_left);
+            change(arriving.lidar_left, known.lidar_left);
         }
         if (hits(fault, kLidarRight)) {
-            change(heard.lidar_right, told.lidar_right);
+            change(arriving.lidar_right, known.lidar_right);
         }
     };
-    PoseReading& pose = heard.motion_capture.value;
+    PoseReading& pose = arriving.motion_capture.value;
     switch (fault.kind) {
-        case FaultKind::imu_lost: heard.imu = told.imu; break;
-        case FaultKind::imu_biased: heard.imu.value.rate_B_rad_s.y() += fault.size; break;
-        case FaultKind::barometer_lost: heard.barometer = told.barometer; break;
-        case FaultKind::magnetometer_lost: heard.magnetometer = told.magnetometer; break;
+        case FaultKind::imu_lost: arriving.imu = known.imu; break;
+        case FaultKind::imu_biased: arriving.imu.value.rate_B_rad_s.y() += fault.size; break;
+        case FaultKind::barometer_lost: arriving.barometer = known.barometer; break;
+        case FaultKind::magnetometer_lost: arriving.magnetometer = known.magnetometer; break;
         case FaultKind::magnetometer_turned: {
-            Vector3& field = heard.magnetometer.value.field_B_gauss;
+            Vector3& field = arriving.magnetometer.value.field_B_gauss;
             field = about_z(radians(fault.size)) * field;
             break;
         }
-        case FaultKind::gps_lost: heard.gps = told.gps; break;
-        case FaultKind::mocap_lost: heard.motion_capture = told.motion_capture; break;
-        case FaultKind::mocap_frozen: pose = told.motion_capture.value; break;
+        case FaultKind::gps_lost: arriving.gps = known.gps; break;
+        case FaultKind::mocap_lost: arriving.motion_capture = known.motion_capture; break;
+        case FaultKind::mocap_frozen: pose = known.motion_capture.value; break;
         case FaultKind::mocap_drifts: pose.p_WB_m += fault.size * since_s * model.ahead_W; break;
         case FaultKind::mocap_jumps: pose.p_WB_m += fault.size * model.ahead_W; break;
         case FaultKind::mocap_wrong_body:
@@ -155,15 +155,17 @@ void corrupt(const Fault& fault, const FaultsModel& model, double since_s, const
                 sample.value = {.distance_m = fault.size, .valid = true};
             });
             break;
-        case FaultKind::force_lost: heard.force = told.force; break;
-        case FaultKind::force_stuck: heard.force.value = told.force.value; break;
-        case FaultKind::force_offset: heard.force.value.axial_N += fault.size; break;
-        case FaultKind::pressure_lost: heard.cup_pressure = told.cup_pressure; break;
-        case FaultKind::pressure_stuck: heard.cup_pressure.value = told.cup_pressure.value; break;
-        case FaultKind::pressure_drifts:
-            heard.cup_pressure.value.pressure_Pa += fault.size * since_s;
+        case FaultKind::force_lost: arriving.force = known.force; break;
+        case FaultKind::force_stuck: arriving.force.value = known.force.value; break;
+        case FaultKind::force_offset: arriving.force.value.axial_N += fault.size; break;
+        case FaultKind::pressure_lost: arriving.cup_pressure = known.cup_pressure; break;
+        case FaultKind::pressure_stuck:
+            arriving.cup_pressure.value = known.cup_pressure.value;
             break;
-        case FaultKind::battery_sensor_lost: heard.battery = told.battery; break;
+        case FaultKind::pressure_drifts:
+            arriving.cup_pressure.value.pressure_Pa += fault.size * since_s;
+            break;
+        case FaultKind::battery_sensor_lost: arriving.battery = known.battery; break;
         case FaultKind::none:
         case FaultKind::estimate_drifts:
         case FaultKind::guidance_stalls:
@@ -202,9 +204,9 @@ void for_each_sample(Visit visit, All&... readings) {
 }
 
 template <class T>
-void tell(Sample<T>& told, const Sample<T>& heard) {
-    if (heard.newer_than(told)) {
-        told = heard;
+void update(Sample<T>& known, const Sample<T>& arriving) {
+    if (arriving.newer_than(known)) {
+        known = arriving;
     }
 }
 
@@ -235,14 +237,14 @@ void step(const FaultsModel& model, FaultsState& state, guidance::PerchingState 
     }
 }
 
-void hear(const FaultsModel& model, const FaultsState& state, double time_s, Readings& told) {
-    Readings heard = state.sensed;
+void hear(const FaultsModel& model, const FaultsState& state, double time_s, Readings& received) {
+    Readings arriving = state.sensed;
     for (std::size_t i = 0; i < model.faults.size(); ++i) {
         if (acts(state.progress[i])) {
-            corrupt(model.faults[i], model, time_s - state.progress[i].began_s, told, heard);
+            corrupt(model.faults[i], model, time_s - state.progress[i].began_s, received, arriving);
         }
     }
-    for_each_sample([](auto& known, const auto& news) { tell(known, news); }, told, heard);
+    for_each_sample([](auto& last, const auto& next) { update(last, next); }, received, arriving);
 }
 
 void stamp_anew(const FaultsModel& model, const FaultsState& state, Readings& readings,

@@ -49,7 +49,7 @@ struct FaultProgress {
 struct FaultsState {
     std::array<FaultProgress, kMostFaults> progress;
     Acting now;
-    Readings sensed;            ///< what the sensors sent; those who read hear it through hear()
+    Readings sensed;            ///< what the sensors sent; those who read it use hear()
     Setpoint through;           ///< the last set-point that came to the autopilot
     double estimated_s = -1.0;  ///< stamp of the last estimate that was changed
 };
@@ -60,14 +60,14 @@ struct FaultsState {
 void step(const FaultsModel& model, FaultsState& state, guidance::PerchingState phase,
           std::size_t rotors, double time_s, guidance::EventList& events);
 
-/// What the vehicle is told of state.sensed.
-/// @param told  what it was told last; news replaces it
-void hear(const FaultsModel& model, const FaultsState& state, double time_s, Readings& told);
+/// What the vehicle receives of state.sensed.
+/// @param received  what it received last; newer samples replace it
+void hear(const FaultsModel& model, const FaultsState& state, double time_s, Readings& received);
 
 /// What drifts in an estimate; once for each.
 void mislead(const FaultsModel& model, FaultsState& state, double time_s, Estimate& estimate);
 
-/// What was heard after guidance's clock has jumped is stamped by the clock that jumped.
+/// What was received after guidance's clock has jumped is stamped by the clock that jumped.
 void stamp_anew(const FaultsModel& model, const FaultsState& state, Readings& readings,
                 Estimate& estimate);
 

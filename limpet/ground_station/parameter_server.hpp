@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -41,7 +40,7 @@ public:
 
     /// @return whether the frame was one of the protocol's; answers but a list's are sent at once
     bool handle(const mavlink::Frame& frame, mavlink::Link& link);
-    /// Goes on with a list that was asked for.
+    /// Goes on with a list that was requested.
     void update(mavlink::Link& link);
 
     [[nodiscard]] const std::vector<ServedParameter>& parameters() const { return parameters_; }

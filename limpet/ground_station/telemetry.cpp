@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -208,9 +207,9 @@ void Telemetry::event(const Event& event) {
     std::array<char, 400> line = {};
     char* at = line.data();
     const auto add = [&](auto format, const auto&... values) {
-        const auto room = static_cast<std::size_t>(line.data() + line.size() - at);
-        const auto done = fmt::format_to_n(at, room, format, values...);
-        at += std::min(done.size, room);
+        const auto left = static_cast<std::size_t>(line.data() + line.size() - at);
+        const auto done = fmt::format_to_n(at, left, format, values...);
+        at += std::min(done.size, left);
     };
     add(FMT_STRING("{}"), to_string(event.name));
     if (!event.reason.empty()) {

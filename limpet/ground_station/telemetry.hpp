@@ -14,13 +14,13 @@
 #include "limpet/ground_station/telemetry_messages.hpp"
 #include "limpet/mavlink/link.hpp"
 
-/// What a ground station (QGroundControl) sees of a vehicle, and what it may ask of it. All time is
+/// What a ground station (QGroundControl) sees of a vehicle, and what it may request. All time is
 /// the vehicle's: rates and stamps follow the `time_s` that is given.
 namespace limpet::ground_station {
 
 using Severity = mavlink::MavSeverity::Value;
 
-/// The vehicle's end of a ground station's link. Sends what is due, answers what is asked, never
+/// The vehicle's end of a ground station's link. Sends what is due, answers requests, never
 /// waits: a ground station that is not there costs nothing. Allocates nothing.
 ///
 /// Answered: parameters, MAV_CMD_REQUEST_MESSAGE, _SET_MESSAGE_INTERVAL and
@@ -31,7 +31,7 @@ public:
     /// What is sent by itself.
     struct Stream {
         std::uint32_t message_id;
-        double rate_Hz;  ///< unless MAV_CMD_SET_MESSAGE_INTERVAL asks for another
+        double rate_Hz;  ///< unless MAV_CMD_SET_MESSAGE_INTERVAL requests another
         void (*send)(Telemetry& telemetry, const VehicleView& vehicle);
     };
     /// All that is sent, and how often.
@@ -62,7 +62,7 @@ private:
     void answer(const mavlink::TimeSync& message, const mavlink::Frame& frame, double time_s);
     void answer(const mavlink::Ping& message, const mavlink::Frame& frame);
     void send_range(const Sample<RangeReading>& sample, std::uint8_t id);
-    /// @param known  else there is nothing to tell
+    /// @param known  else there is nothing to report
     template <class Message>
     void post(const Message& message, bool known = true);
 

@@ -12,7 +12,7 @@ namespace {
 
 // --- conditions that must hold for settle_s ---------------------------------------------------
 
-/// What is asked for is multiplied by it: 1, and from `patience_s` on in proportion to the time.
+/// What is requested is multiplied by it: 1, and from `patience_s` on in proportion to the time.
 double leniency(double waited_s, double patience_s) {
     return std::max(1.0, waited_s / patience_s);
 }
@@ -77,6 +77,10 @@ bool is_level(const Scene& s) {
 }
 
 // --- what each sense says of the cup ------------------------------------------------------------
+
+double lean_limit_m_s2(const PerchingParameters& parameters) {
+    return kGravity_m_s2 * std::tan(radians(parameters.lean_limit_deg));
+}
 
 enum class Vote {
     unknown,
@@ -190,16 +194,19 @@ bool wall_lost(const Scene& s) {
     return !sees_wall(s);
 }
 bool too_windy(const Scene& s) {
-    // Across, it can lean only while the cup holds it off the wall: at 20 deg the legs miss it, and
-    // a wind off the wall takes of that.
-    const double limit_m_s2 = kGravity_m_s2 * std::tan(radians(s.parameters.lean_limit_deg));
+    return s.elapsed_s() > s.parameters.settle_s &&
+           s.memory.wind.trim_W_m_s2.norm() > lean_limit_m_s2(s.parameters);
+}
+bool too_windy_across(const Scene& s) {
+    // What the lip keeps of it turned, the vehicle must stand on its legs; and a wind off the wall
+    // takes of what it can lean.
+    const double limit_m_s2 = lean_limit_m_s2(s.parameters);
     const Vector3& trim_W_m_s2 = s.memory.wind.trim_W_m_s2;
     const Vector3 n_W = s.memory.wall.into_wall_W();
     const double across =
         n_W.cross(trim_W_m_s2).norm() / (s.parameters.lean_across_share * limit_m_s2);
     const double against = std::max(0.0, n_W.dot(trim_W_m_s2)) / limit_m_s2;
-    return s.elapsed_s() > s.parameters.settle_s &&
-           (trim_W_m_s2.norm() > limit_m_s2 || std::hypot(across, against) > 1.0);
+    return s.elapsed_s() > s.parameters.settle_s && std::hypot(across, against) > 1.0;
 }
 bool force_lost(const Scene& s) {
     return !s.readings.force.fresh(s.time_s, s.parameters.sensor_limit_s);

@@ -53,6 +53,7 @@ struct Scene {
 [[nodiscard]] bool wall_lost(const Scene& s);
 /// Leans farther against the wind than the wall can be left with.
 [[nodiscard]] bool too_windy(const Scene& s);
+[[nodiscard]] bool too_windy_across(const Scene& s);
 [[nodiscard]] bool force_lost(const Scene& s);
 /// A free cup is at atmospheric pressure: a sensor that says otherwise, or nothing, is broken.
 [[nodiscard]] bool pressure_implausible(const Scene& s);
@@ -71,12 +72,12 @@ struct Scene {
 [[nodiscard]] bool estimate_lost(const Scene& s);
 [[nodiscard]] bool estimate_back(const Scene& s);
 [[nodiscard]] bool estimate_back_perched(const Scene& s);
-/// Pose, pressure and force vote, as far as each is known: none that can tell says that it holds,
+/// Pose, pressure and force vote, as far as each is known: none that can judge says that it holds,
 /// or two of three that it does not. At this instant.
 [[nodiscard]] bool looks_off(const Scene& s);
 /// And for debounce_s.
 [[nodiscard]] bool came_off(const Scene& s);
-/// As far as the pressure tells.
+/// As far as the pressure shows.
 [[nodiscard]] bool seems_sealed(const Scene& s);
 /// Still at the wall when the retreat should be over, and nothing says that wind does it.
 [[nodiscard]] bool held_back(const Scene& s);
@@ -109,7 +110,7 @@ struct Scene {
 [[nodiscard]] bool swings(const Scene& s);
 [[nodiscard]] bool release_too_long(const Scene& s);
 [[nodiscard]] bool no_vacuum(const Scene& s);
-/// Nothing tells of the vacuum: to let go would be a guess, to rest with the pump on is none.
+/// The vacuum is not known: to let go would be a guess, to rest with the pump on is none.
 [[nodiscard]] bool reseals_blind(const Scene& s);
 
 }  // namespace limpet::guidance::guards

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/guidance/lip_turn.hpp"
 
 namespace limpet::guidance {
 namespace {
@@ -60,7 +61,7 @@ void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
         parameters.pre_distance_m - memory.wall.distance_m(parameters, estimate.p_WB_m);
     const double speed_m_s = parameters.retreat_speed_m_s;
     const double braking_m = 0.5 * speed_m_s * speed_m_s / parameters.retreat_acceleration_m_s2;
-    // The position loop asks for line_gain times the distance left: from there on it is the slower
+    // The position loop commands line_gain times the distance left: from there on it is the slower
     // one.
     if (left_m <
         std::max(braking_m, speed_m_s / std::max(parameters.line_gain_1_s, kSlowestGain_1_s))) {
@@ -171,32 +172,43 @@ double level_share(const PerchingParameters& parameters, const PerchingMemory& m
     return 1.0 - sink_m_s2 / kGravity_m_s2;
 }
 
-/// On the cup: an attitude, and a roll that keeps the vehicle beside neither side of the cup. Near
-/// the wall it stops leaning: both legs shall meet it, what hangs below the cup keeps its side by
-/// its weight, and the legs hold it then.
+/// On the cup: an attitude in the plane that the turned lip holds, and a roll that keeps the
+/// vehicle on neither side of it. Near the wall it stops leaning: both legs shall meet it, what
+/// hangs below the cup keeps its side by its weight, and the legs hold it then.
 /// @param share  of the weight along the thrust axis as long as it does not roll
 AttitudeSetpoint on_the_cup(const PerchingParameters& parameters, const PerchingMemory& memory,
                             const Estimate& estimate, double pitch_rad, double share) {
+    const double turn_rad = turn_on_cup_rad(parameters, memory);
+    const double near = smoothstep((radians(parameters.perched_pitch_deg) - pitch_rad) /
+                                   radians(parameters.roll_fade_deg));
     double side_m_s2 = 0.0;
     if (share > 0.0 && sits_on_grip(parameters, memory, estimate)) {
-        const Vector3 right_W = right_of(memory);
-        const double v_m_s = right_W.dot(estimate.v_WB_m_s);
-        const double asked_m_s = -parameters.side_gain_1_s * side_error_m(memory, estimate);
+        const double v_m_s =
+            right_of_lip_W(memory.wall.into_wall_W(), turn_rad).dot(estimate.v_WB_m_s);
+        const double asked_m_s =
+            -parameters.side_gain_1_s * side_error_m(parameters, memory, estimate);
+        // Against the wind, and its own weight, which acts towards the lower side of a turned lip.
         const double known_m_s2 = windy(parameters, memory)
-                                      ? right_W.dot(memory.wind.trim_W_m_s2) * std::sqrt(share)
+                                      ? right_of(memory).dot(memory.wind.trim_W_m_s2) *
+                                                std::sqrt(share) * std::cos(turn_rad) -
+                                            kGravity_m_s2 * std::sin(turn_rad)
                                       : 0.0;
-        const double near = smoothstep((radians(parameters.perched_pitch_deg) - pitch_rad) /
-                                       radians(parameters.roll_fade_deg));
         side_m_s2 = near * (known_m_s2 + memory.wind.side_m_s2 +
                             parameters.sway_gain_1_s * (asked_m_s - v_m_s));
     }
     const double along_m_s2 = kGravity_m_s2 * std::max(share, 0.0);
     side_m_s2 = std::clamp(side_m_s2, -parameters.roll_limit * along_m_s2,
                            parameters.roll_limit * along_m_s2);
-    const double roll_rad = along_m_s2 > 0.0 ? std::atan(side_m_s2 / along_m_s2) : 0.0;
-    return {.q_WB = quaternion_from_euler(
-                {.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = memory.wall.heading_rad}),
-            .thrust = thrust_command(parameters, share / std::cos(roll_rad))};
+    // The less thrust, the less wind: its weight may turn it back before the legs hold it so.
+    const bool lands =
+        memory.state == PerchingState::pitching_up || memory.state == PerchingState::unloading;
+    const double turn_asked_rad = lands ? near * turn_rad : turn_rad;
+    // The thrust that carries the share grows with the whole lean, turn and roll.
+    const double part = along_m_s2 > 0.0 ? side_m_s2 / along_m_s2 : 0.0;
+    const double roll_rad =
+        std::atan(part * std::cos(turn_rad) / (1.0 + part * std::sin(turn_rad)));
+    return {.q_WB = attitude_on_lip(memory.wall.heading_rad, turn_asked_rad, pitch_rad, roll_rad),
+            .thrust = thrust_command(parameters, share / std::cos(turn_rad + roll_rad))};
 }
 
 /// Into the wall, in wind and gusts without being turned about the cup meanwhile.
@@ -296,8 +308,14 @@ bool sits_on_grip(const PerchingParameters& parameters, const PerchingMemory& me
     return estimate.valid && (joint_W_m - memory.grip_W_m).norm() < parameters.slip_limit_m;
 }
 
-double side_error_m(const PerchingMemory& memory, const Estimate& estimate) {
-    return right_of(memory).dot(estimate.p_WB_m - memory.grip_W_m);
+double turn_on_cup_rad(const PerchingParameters& parameters, const PerchingMemory& memory) {
+    return windy(parameters, memory) ? memory.wind.turn_rad : 0.0;
+}
+
+double side_error_m(const PerchingParameters& parameters, const PerchingMemory& memory,
+                    const Estimate& estimate) {
+    return right_of_lip_W(memory.wall.into_wall_W(), turn_on_cup_rad(parameters, memory))
+        .dot(estimate.p_WB_m - memory.grip_W_m);
 }
 
 RunReference run_reference(double time_s, double speed_m_s, double acceleration_m_s2,

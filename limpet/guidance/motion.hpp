@@ -44,8 +44,13 @@ struct RunReference {
 [[nodiscard]] bool sits_on_grip(const PerchingParameters& parameters, const PerchingMemory& memory,
                                 const Estimate& estimate);
 
-/// Right of the place before the cup where the vehicle belongs [m].
-[[nodiscard]] double side_error_m(const PerchingMemory& memory, const Estimate& estimate);
+/// By which the lip is turned on the wall; in still air nothing, that is how the cup docks. [rad]
+[[nodiscard]] double turn_on_cup_rad(const PerchingParameters& parameters,
+                                     const PerchingMemory& memory);
+
+/// Right of the place before the cup where the vehicle belongs, along the lip's right [m].
+[[nodiscard]] double side_error_m(const PerchingParameters& parameters,
+                                  const PerchingMemory& memory, const Estimate& estimate);
 
 /// What the vehicle shall do in the memory's state at this time.
 [[nodiscard]] Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memory,

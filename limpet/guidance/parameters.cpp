@@ -124,9 +124,11 @@ const ParameterTable<PerchingParameters>& perching_table() {
          "for the vacuum to come back after a release given up", "assumed"},
         {"lean_limit_deg", "deg", 1.0, 60.0, &P::lean_limit_deg,
          "leans farther against the wind: no docking run", "assumed: 7.5 m/s"},
-        {"lean_across_share", "-", 0.05, 1.0, &P::lean_across_share,
-         "largest lean across the docking direction, of lean_limit_deg",
-         "assumed: leaning 20 deg on the cup the legs miss the wall"},
+        {"lean_across_share", "-", 0.01, 1.0, &P::lean_across_share,
+         "largest lean across the docking direction, as a share of lean_limit_deg (of tangents): "
+         "part of it stays as a turn on the cup, with which the vehicle must still stand on its "
+         "legs",
+         "derived from the vehicle's legs, cup and centre of mass"},
         {"wind_filter_s", "s", 0.01, 60.0, &P::wind_filter_s,
          "time constant of the wind as it is learnt before the wall", "assumed"},
         {"calm_lean_deg", "deg", 0.1, 60.0, &P::calm_lean_deg,
@@ -153,7 +155,7 @@ const ParameterTable<PerchingParameters>& perching_table() {
         {"retreat_limit_s", "s", 0.5, 120.0, &P::retreat_limit_s,
          "getting back to the pre-position", "assumed"},
         {"brake_gain_1_s", "1/s", 0.1, 10.0, &P::brake_gain_1_s,
-         "without a position: acceleration that it asks for per speed", "assumed"},
+         "without a position: acceleration that it requests per speed", "assumed"},
         {"brake_acceleration_m_s2", "m/s^2", 0.1, 10.0, &P::brake_acceleration_m_s2,
          "largest such acceleration", "assumed: 22 deg"},
         {"attempts", "count", 1.0, 100.0, &P::attempts, "docking runs before giving up", "assumed"},

@@ -6,7 +6,7 @@
 
 namespace limpet::guidance {
 
-/// How to perch and how to take off. Distances to the wall are those of the LiDARs unless said
+/// How to perch and how to take off. Distances to the wall are those of the LiDARs unless stated
 /// otherwise. Sources: the paper, section IV; baseline.md for what the paper does not say.
 struct PerchingParameters {
     // the vehicle, as guidance knows it
@@ -25,10 +25,10 @@ struct PerchingParameters {
     double settle_s = 0.5;           ///< how long a condition must hold to count
     double wall_filter_s = 0.3;      ///< low-pass of the wall seen by the LiDARs
     double wall_near_limit_m = 6.0;  ///< no wall nearer than this: not in front of one
-    double patience_s = 4.0;         ///< standing there in gusts: after so long it asks for less
-    double patience_back_s = 2.0;    ///< likewise on the way back in wind, when nothing follows
-    double lean_error_s2 = 0.05;     ///< error of the position per acceleration leaned against
-    double near_share = 0.5;         ///< of pre_distance_m: nearer counts as at the wall
+    double patience_s = 4.0;  ///< standing there in gusts: after so long larger errors are accepted
+    double patience_back_s = 2.0;  ///< likewise on the way back in wind, when nothing follows
+    double lean_error_s2 = 0.05;   ///< error of the position per acceleration leaned against
+    double near_share = 0.5;       ///< of pre_distance_m: nearer counts as at the wall
     // dock
     double dock_speed_m_s = 1.1;
     double dock_acceleration_m_s2 = 1.5;
@@ -62,13 +62,13 @@ struct PerchingParameters {
     double level_limit_deg = 2.0;
     double level_rate_deg_s = 5.0;
     double level_limit_s = 15.0;
-    double patience_level_s = 1.5;  ///< in wind: after so long it asks for less
+    double patience_level_s = 1.5;  ///< in wind: after so long larger errors are accepted
     double detach_pressure_Pa = 98000.0;
     double release_limit_s = 16.0;  ///< then the release is given up
     double oscillation_limit_deg = 10.0;
     bool altitude_hold = false;        ///< thrust keeps the height while level on the cup
-    double altitude_gain_1_s = 1.0;    ///< climb rate asked per error of height
-    double climb_rate_gain_1_s = 4.0;  ///< acceleration asked per error of that rate
+    double altitude_gain_1_s = 1.0;    ///< climb rate commanded per error of height
+    double climb_rate_gain_1_s = 4.0;  ///< acceleration commanded per error of that rate
     double hang_pitch_deg = 20.0;      ///< pitched farther, a cup that holds feels a force
     double reseal_limit_s = 3.0;
     // wind
@@ -76,8 +76,8 @@ struct PerchingParameters {
     double lean_across_share = 0.66;  ///< of that across the docking direction
     double wind_filter_s = 1.0;       ///< time constant of the wind as it is learnt before the wall
     double calm_lean_deg = 1.5;       ///< leans less: counts as calm
-    double side_gain_1_s = 3.0;       ///< on the cup: speed asked per error of the side
-    double sway_gain_1_s = 8.0;       ///< acceleration asked per error of that speed
+    double side_gain_1_s = 3.0;       ///< on the cup: speed commanded per error of the side
+    double sway_gain_1_s = 8.0;       ///< acceleration commanded per error of that speed
     double side_integral_1_s3 = 10.0;  ///< and per error of the side, a second
     double side_limit_m_s2 = 3.0;      ///< of that integral
     double roll_limit = 0.6;           ///< largest sideways share of the thrust on the cup

@@ -2,10 +2,10 @@
 #include "limpet/guidance/perching.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/guidance/guards.hpp"
+#include "limpet/guidance/lip_turn.hpp"
 #include "limpet/guidance/motion.hpp"
 
 namespace limpet::guidance {
@@ -59,6 +59,8 @@ constexpr std::array kTable = {
     ends(S::aligning, pressure_implausible, "pressure sensor stuck or silent", Outcome::aborted),
     ends(S::aligning, waited_too_long, "not perpendicular to the wall in time", Outcome::aborted),
     ends(S::aligning, too_windy, "too much wind: leans too far", Outcome::aborted),
+    ends(S::aligning, too_windy_across,
+         "too much wind along the wall: at rest it would tip over a leg", Outcome::aborted),
     Transition{S::aligning, wall_lost, S::pre_positioning, "LiDAR lost"},
     Transition{S::aligning, settled, S::approaching, "perpendicular to the wall",
                E::approach_started},
@@ -213,20 +215,24 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
     }
     if (row.to == S::spinning_up || row.from == S::deciding) {
         memory.wind.side_m_s2 = 0.0;
+        memory.wind.turn_rad = lip_turn_rad(memory.wall.into_wall_W(), estimate.q_WB);
     }
     memory.since_s = s.time_s;
     memory.settled_since_s = -1.0;
     memory.rest.q_WB = estimate.q_WB;
     memory.entry_pressure_Pa = s.pressure_Pa();
     memory.entry_p_W_m = estimate.p_WB_m;
-    memory.entry_pitch_rad = attitude.pitch_rad;
+    memory.entry_pitch_rad = windy(s.parameters, memory)
+                                 ? pitch_on_lip_rad(memory.wall.into_wall_W(), estimate.q_WB)
+                                 : attitude.pitch_rad;
     memory.entry_yaw_rad = attitude.yaw_rad;
 }
 
-/// Standing before the wall it learns the wind; on the cup, what more keeps its side.
+/// Standing before the wall it estimates the wind; on the cup, what more keeps its side.
 void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
                const Estimate& estimate, double time_s) {
-    constexpr double kLongest_s = 0.1;  // a clock that jumps; guidance slower than this learns less
+    constexpr double kLongest_s =
+        0.1;  // a clock that jumps; guidance slower than this estimates less
     const double dt_s = std::clamp(time_s - memory.wind.updated_s, 0.0, kLongest_s);
     memory.wind.updated_s = time_s;
     if (!estimate.valid) {
@@ -243,9 +249,12 @@ void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
                memory.state == S::levelled || memory.state == S::releasing ||
                memory.state == S::resealing) {
         memory.wind.side_m_s2 =
-            std::clamp(memory.wind.side_m_s2 -
-                           dt_s * parameters.side_integral_1_s3 * side_error_m(memory, estimate),
+            std::clamp(memory.wind.side_m_s2 - dt_s * parameters.side_integral_1_s3 *
+                                                   side_error_m(parameters, memory, estimate),
                        -parameters.side_limit_m_s2, parameters.side_limit_m_s2);
+        const double turned_rad = lip_turn_rad(memory.wall.into_wall_W(), estimate.q_WB);
+        memory.wind.turn_rad +=
+            dt_s / (parameters.wind_filter_s + dt_s) * (turned_rad - memory.wind.turn_rad);
     }
 }
 
@@ -269,7 +278,7 @@ bool looks_at_wall(PerchingState state) {
 }  // namespace
 
 void EventList::add(const Event& event) {
-    require(count < events.size(), "there is room for all that can happen in a tick");
+    require(count < events.size(), "there is space for all that can happen in a tick");
     events[count++] = event;
 }
 
@@ -305,9 +314,9 @@ bool end_rest(const PerchingParameters& parameters, PerchingMemory& memory, doub
 }
 
 void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,
-            const Readings& readings, const Estimate& told, double time_s, EventList& events) {
-    Estimate estimate = told;
-    if (memory.state == S::resting && time_s - told.time_s > parameters.sensor_limit_s) {
+            const Readings& readings, const Estimate& reported, double time_s, EventList& events) {
+    Estimate estimate = reported;
+    if (memory.state == S::resting && time_s - reported.time_s > parameters.sensor_limit_s) {
         estimate.valid = false;  // nobody leaves the wall by an attitude of long ago
     }
     if (looks_at_wall(memory.state)) {

@@ -94,6 +94,7 @@ struct WindFelt {
     Vector3 trim_W_m_s2 = Vector3::Zero();  ///< level; leant so before the wall, low-passed
     double most_m_s2 = 0.0;                 ///< the most that was needed there
     double side_m_s2 = 0.0;                 ///< what more it takes to keep its side on the cup
+    double turn_rad = 0.0;                  ///< by which the lip is turned on the wall, low-passed
     double updated_s = 0.0;                 ///< when this was last looked at
 };
 
@@ -102,7 +103,7 @@ struct CupBelief {
     int seals_lost = 0;             ///< attempts that sealed and went back all the same
     bool lets_go = false;           ///< the pump went off so that the cup comes off, and stayed off
     bool pump_stays = false;        ///< leaves, though the pressure says that the cup holds
-    bool pressure_doubted = false;  ///< the cup held when the sensor said that it could not
+    bool pressure_doubted = false;  ///< the cup held when the sensor reported that it could not
 };
 
 /// Of the estimate while it rests.

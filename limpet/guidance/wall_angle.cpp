@@ -26,7 +26,8 @@ struct Stand {
     Euler attitude;
 };
 
-/// @param time_s  when the echoes were taken: before guidance hears them, and not when the pose was
+/// @param time_s  when the echoes were taken: before guidance receives them, and not when the pose
+/// was
 Stand stand_at(const Estimate& estimate, double time_s) {
     constexpr double kFar_s =
         0.1;  // no LiDAR is later; beyond it a fault of the clocks, no setting

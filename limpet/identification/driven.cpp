@@ -72,12 +72,12 @@ public:
         const RotorList<double>& command = data_.command[command_];
         for (std::size_t i = 0; i < arms_.size(); ++i) {
             const double share = i < command.size() ? command[i] : 0.0;
-            const double asked =
+            const double commanded =
                 share > 0.0 ? std::min(rotor_.speed_max_rad_s,
                                        rotor_.speed_offset_rad_s + rotor_.speed_scale_rad_s * share)
                             : 0.0;
-            const double off = begins_ ? 0.0 : speeds_rad_s_[i] - asked;
-            speeds_rad_s_[i] = asked + off * (off < 0.0 ? keep_up_ : keep_down_);
+            const double off = begins_ ? 0.0 : speeds_rad_s_[i] - commanded;
+            speeds_rad_s_[i] = commanded + off * (off < 0.0 ? keep_up_ : keep_down_);
         }
         begins_ = false;
     }
@@ -89,7 +89,7 @@ private:
     double keep_up_, keep_down_;
     RotorList<double> speeds_rad_s_;
     std::size_t command_ = 0;
-    bool begins_ = true;  ///< they turn as they are asked to
+    bool begins_ = true;  ///< they turn as commanded
 };
 
 /// The integral of the moment, and the integral of that since a sample.

@@ -12,7 +12,7 @@ namespace limpet::identification {
 /// What a log's commands do to a vehicle, at the IMU's samples.
 struct Driven {
     /// Moment of the rotors and of the air on them, integrated over time: over the inertia, what
-    /// the gyro tells, the mean since the sample before.
+    /// the gyro measures, the mean since the sample before.
     std::array<Eigen::VectorXd, 3> spin_N_m_s;
     /// Sum of -w v over the hubs, across their axes: lambda_1 times it is their drag in B.
     std::vector<Vector3> hub_flow_m;

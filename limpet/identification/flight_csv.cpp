@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/identification/flight_csv.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/csv_line.hpp"
+#include "limpet/identification/flight_data.hpp"
 
 namespace limpet::identification {
 namespace {

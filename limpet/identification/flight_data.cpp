@@ -10,14 +10,13 @@
 #include <limits>
 #include <map>
 
-#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/core/user_text.hpp"
-#include "limpet/identification/flight_csv.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/record/ros_frames.hpp"
-#include "limpet/ulog/ulog_reader.hpp"
+#include "limpet/ulog/ulog.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -323,7 +322,7 @@ void require_in_order(const std::filesystem::path& path, const char* what,
 
 }  // namespace
 
-FlightData read_flight(const std::filesystem::path& path, const FlightSpan& asked) {
+FlightData read_flight(const std::filesystem::path& path, const FlightSpan& requested) {
     std::string head(8, '\0');
     std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(8));
     const auto is = [&](std::string_view beginning, std::string_view extension) {
@@ -340,7 +339,7 @@ FlightData read_flight(const std::filesystem::path& path, const FlightSpan& aske
     require_in_order(path, "a force", data.force_s);
     require_in_order(path, "a pressure", data.pressure.t_s);
     count_from_first_sample(data);
-    FlightSpan span = asked;
+    FlightSpan span = requested;
     for (std::optional<double>* end_s : {&span.from_s, &span.to_s}) {
         if (*end_s) {
             *end_s = since_origin_s(**end_s, data.origin_s);

@@ -30,7 +30,7 @@ struct FlightData {
     /// (simulation/stride.hpp), which says when a command acts. Empty: nothing went in steps.
     std::vector<int> strides = {};
     std::string scenario_yaml = {};  ///< that a flight of ours was flown by
-    double origin_s = 0.0;           ///< of all times, in the log's clock (core/clock_origin.hpp)
+    double origin_s = 0.0;           ///< of all times, in the log's clock (core/time.hpp)
     std::string kind = {};           ///< "recording", "PX4 log", "CSV"
 };
 
@@ -42,7 +42,7 @@ struct FlightSpan {
 /// Reads a log by how it begins: an MCAP recording of ours (or of others with our topics), PX4's
 /// ULog, or CSV: a header with `t_s` and any of gyro_x_rad_s (y, z), accel_x_m_s2, command_0 (1,
 /// ...), velocity_x_m_s (all in B, forward-right-down), force_N, pressure_Pa; an empty cell is no
-/// sample. Motors of PX4 up to v1.13 are told by actuator_outputs: PWM, by the log's own limits
+/// sample. Motors of PX4 up to v1.13 are taken from actuator_outputs: PWM, by the log's own limits
 /// made 0..1, and thrust by its THR_MDL_FAC. Samples of a recording or a PX4 log that stand up to a
 /// second too late are put in their places (FlightData::remarks).
 /// Times of a clock (Unix, GPS) count from the first sample.
@@ -50,5 +50,9 @@ struct FlightSpan {
 /// @throws InputError one line: file:line in CSV, what is missing or cannot be read
 [[nodiscard]] FlightData read_flight(const std::filesystem::path& path,
                                      const FlightSpan& span = {});
+
+/// A flight's log as CSV, as read_flight() says.
+/// @throws InputError one line: file:line, what is missing or cannot be read
+[[nodiscard]] FlightData read_flight_csv(const std::filesystem::path& path);
 
 }  // namespace limpet::identification

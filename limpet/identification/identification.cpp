@@ -68,7 +68,7 @@ void guess_sealing(const PressureTrace& trace, const Stages& stages,
     }
 }
 
-/// @param see_atmosphere  whether the end of the log tells what it rises to
+/// @param see_atmosphere  whether the end of the log shows what it rises to
 Guess guess_of(const PressureTrace& trace, const Stages& stages,
                const IdentificationOptions& options, std::size_t on, std::size_t off,
                bool see_atmosphere) {
@@ -149,7 +149,7 @@ Guess best_guess(const PressureTrace& trace, const Stages& stages,
         }
     }
     if (best.free.empty()) {
-        throw InputError("the log is too short or too coarse to tell its time constants");
+        throw InputError("the log is too short or too coarse to estimate its time constants");
     }
     return best;
 }
@@ -305,7 +305,7 @@ PressureFit result_of(const CurveFit& fit, const IdentificationOptions& options)
     return result;
 }
 
-/// A stage of which there is next to nothing in the log tells nothing.
+/// A stage of which there is next to nothing in the log is not fitted.
 void drop_short_stages(const PressureTrace& trace, Stages& stages) {
     const auto few = [&](std::size_t from) {
         return trace.t_s.size() - std::min(from, trace.t_s.size()) < kFewestOfAStage;
@@ -342,7 +342,7 @@ CurveFit fitted_curve(const PressureTrace& trace, Stages stages,
         fit = fit_curve(trace, guess.curve, guess.free);
     }
     if (!fit.regular) {
-        throw InputError("the log is too short or too coarse to tell its time constants");
+        throw InputError("the log is too short or too coarse to estimate its time constants");
     }
     return fit;
 }
@@ -355,14 +355,15 @@ PressureFit identify_pressure(const PressureTrace& trace, const IdentificationOp
     check_options(options);
     const std::size_t first = options.from_s ? sample_at(trace, *options.from_s) : 0;
     const std::size_t end = options.to_s ? sample_at(trace, *options.to_s) : trace.t_s.size();
-    const PressureTrace asked = samples_of(trace, first, std::max(first, end) - first);
-    check(asked, options);
-    const double first_s = asked.t_s.front();
-    const PressureTrace moved = from_first_sample(asked);
+    const PressureTrace selected = samples_of(trace, first, std::max(first, end) - first);
+    check(selected, options);
+    const double first_s = selected.t_s.front();
+    const PressureTrace moved = from_first_sample(selected);
     const IdentificationOptions moved_options = earlier(options, first_s);
     Stages stages = stages_of(moved, moved_options);
-    if (options.pump_off_s && stages.used > 0 && *options.pump_off_s > asked.t_s[stages.used - 1]) {
-        stages.used = asked.t_s.size();  // the user knows better where it ends
+    if (options.pump_off_s && stages.used > 0 &&
+        *options.pump_off_s > selected.t_s[stages.used - 1]) {
+        stages.used = selected.t_s.size();  // the user knows better where it ends
     }
     const PressureTrace used = samples_of(moved, 0, stages.used);
     drop_short_stages(used, stages);
@@ -371,12 +372,12 @@ PressureFit identify_pressure(const PressureTrace& trace, const IdentificationOp
     go_later(result, first_s);
     result.first_sample = first;
     result.samples = used.t_s.size();
-    if (used.t_s.size() < asked.t_s.size()) {
+    if (used.t_s.size() < selected.t_s.size()) {
         result.notes.push_back(
             fmt::format("the log seals again at {:g} s: only what is before was used",
-                        asked.t_s[used.t_s.size() - 1]));
+                        selected.t_s[used.t_s.size() - 1]));
     }
-    if (const std::string suspected = suspected_time_unit(asked.t_s); !suspected.empty()) {
+    if (const std::string suspected = suspected_time_unit(selected.t_s); !suspected.empty()) {
         result.notes.push_back(suspected);
     }
     return result;

@@ -26,7 +26,7 @@ struct Fitted {
     double half_width = 0.0;
 };
 
-/// What a log tells of eqs. (5) and (6). What is not there, or was given, has no value.
+/// What a log says of eqs. (5) and (6). What is not there, or was given, has no value.
 struct PressureFit {
     std::optional<Fitted> atmosphere_Pa = {};
     std::optional<Fitted> vacuum_Pa = {};         ///< P_vac
@@ -49,7 +49,8 @@ struct PressureFit {
 /// joins the curve when it stands out of the noise. Intervals hold for correlated residuals.
 /// @param trace  times rising, all numbers finite, as many of one as of the other
 /// @throws InputError when the log has fewer than 20 samples, no change of pressure that stands out
-///         of its noise, or too little of one to tell its numbers; InternalError for a broken trace
+///         of its noise, or too little of one to estimate its numbers; InternalError for a broken
+///         trace
 /// Source: paper eqs. (5), (6).
 [[nodiscard]] PressureFit identify_pressure(const PressureTrace& trace,
                                             const IdentificationOptions& options = {});

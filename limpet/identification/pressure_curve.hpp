@@ -12,7 +12,7 @@ namespace limpet::identification {
 struct PressureTrace {
     std::vector<double> t_s;  ///< rising
     std::vector<double> pressure_Pa;
-    double origin_s = 0.0;  ///< of t_s in the log's clock (core/clock_origin.hpp)
+    double origin_s = 0.0;  ///< of t_s in the log's clock (core/time.hpp)
 };
 
 /// Eqs. (5) and (6) one after the other, with the ripple of the pump:
@@ -80,7 +80,7 @@ struct CurveFit {
     Eigen::VectorXd freedom;     ///< degrees of freedom of each variance in it, for Student's t
     double residual_Pa = 0.0;    ///< standard deviation
     double memory_s = 0.0;       ///< over which residuals were taken as correlated
-    bool regular = false;        ///< the trace tells the free parameters apart
+    bool regular = false;        ///< the trace distinguishes the free parameters
 };
 
 /// Least squares by Levenberg and Marquardt's method, MINPACK's as Eigen has it, from `start`.

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/identification/pressure_log.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
-#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/csv_line.hpp"
 

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What parts the columns; the header tells.
+/// What parts the columns, by the header.
 enum class Parted {
     by_blanks,
     by_commas,
@@ -76,7 +76,7 @@ Places read_header(const std::vector<std::string>& words, const CsvLine& line) {
     return places;
 }
 
-PropellerRow read_row(const std::vector<std::string>& words, const Places& places,
+PropellerRow read_row(const std::vector<std::string>& words, const Places& places, Parted parted,
                       const CsvLine& line) {
     PropellerRow row;
     for (std::size_t k = 0; k < kColumns.size(); ++k) {
@@ -85,7 +85,7 @@ PropellerRow read_row(const std::vector<std::string>& words, const Places& place
             line.refuse("{} is missing, the row has {} of the columns", name, words.size());
         }
         const std::string& word = words[places[k]];
-        const auto value = decimal(word);
+        const auto value = number_in(word, parted == Parted::by_semicolons ? ';' : ',');
         if (!value || *value <= 0.0 || *value > kColumns[k].most) {
             line.refuse("{}: must be a number above 0, at most {:g}, is {}", name, kColumns[k].most,
                         in_quotes(word));
@@ -127,7 +127,7 @@ std::vector<PropellerRow> read_propeller_file(const fs::path& path) {
     Parted parted = Parted::by_blanks;
     for_each_csv_line(file, name, [&](const CsvLine& line) {
         if (places) {
-            rows.push_back(read_row(words_of(line.text, parted), *places, line));
+            rows.push_back(read_row(words_of(line.text, parted), *places, parted, line));
         } else {
             parted = parting_of(line.text);
             places = read_header(words_of(line.text, parted), line);

@@ -12,12 +12,12 @@ namespace limpet::identification {
 
 /// One rotor on a static thrust stand, in still air.
 struct ThrustStandRow {
-    double speed_rad_s = 0.0;  ///< reached, not asked for
+    double speed_rad_s = 0.0;  ///< reached, not requested
     double thrust_N = 0.0;
     double torque_N_m = 0.0;
     PropellerRow coefficients;  ///< as a UIUC file has them
 };
-/// @param speeds_rpm  asked for; beyond the rotor's highest speed it stays below
+/// @param speeds_rpm  requested; beyond the rotor's highest speed it stays below
 /// @return one row a speed
 [[nodiscard]] std::vector<ThrustStandRow> static_thrust_stand(
     const vehicle::RotorParameters& rotor, const std::vector<double>& speeds_rpm);

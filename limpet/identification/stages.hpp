@@ -13,7 +13,7 @@ struct Stages {
     std::size_t used = 0;     ///< samples up to a second sealing, or all
     bool sealing = false;     ///< it falls from high to low
     bool unsealing = false;   ///< it rises from low
-    bool may_unseal = false;  ///< it rises a little at its end: a fit must tell
+    bool may_unseal = false;  ///< it rises a little at its end: a fit must decide
     double high_Pa = 0.0;
     double low_Pa = 0.0;
     std::vector<std::size_t> on;   ///< samples at which sealing may begin; 0: before the log

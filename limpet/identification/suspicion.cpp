@@ -73,7 +73,7 @@ double median_step_s(const std::vector<double>& t_s) {
 }
 
 std::string suspected_time_unit(const std::vector<double>& t_s) {
-    constexpr double kSlowest_s = 1.0;  ///< a sample a second: slower tells nothing of a cup
+    constexpr double kSlowest_s = 1.0;  ///< a sample a second: slower shows nothing of a cup
     const double step = median_step_s(t_s);
     if (step < kSlowest_s) {
         return {};

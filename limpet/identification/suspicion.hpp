@@ -8,8 +8,8 @@
 namespace limpet::identification {
 
 /// What a log of a cup's pressure may be in, where it is hardly absolute pressure in Pa: gauge
-/// pressure of either sign, hPa, kPa, bar or psi. Told by where most samples lie: single wild ones
-/// do not count.
+/// pressure of either sign, hPa, kPa, bar or psi. Recognised by where most samples lie: single wild
+/// ones do not count.
 /// @param pressure_Pa    as the log has it, in any order
 /// @param atmosphere_Pa  around the cup; a log that reaches it is not suspected
 /// @return one sentence, with the remedy; empty: nothing is suspected

@@ -2,7 +2,6 @@
 #include "limpet/identification/turning_fit.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
@@ -16,7 +15,7 @@ using Eigen::VectorXd;
 
 constexpr int kLags = 2, kInertias = 3;
 
-/// An axis: what the gyro did, and by what it is told.
+/// An axis: what the gyro did, and what drives it.
 struct TurningAxis {
     VectorXd rate;  ///< whitened
     VectorXd ramp;  ///< of a steady moment, whitened
@@ -32,7 +31,7 @@ VectorXd solve_axis(TurningAxis& axis, const VectorXd& spin) {
     const double ys = axis.rate.dot(spin), yr = axis.rate.dot(axis.ramp);
     const double det = ss * rr - sr * sr;
     if (!(det > 1e-12 * ss * rr)) {
-        throw InputError("its commands do not turn the vehicle: nothing tells the inertia");
+        throw InputError("its commands do not turn the vehicle: the inertia is not observable");
     }
     axis.per_inertia = (ys * rr - yr * sr) / det;
     const double steady = (yr * ss - ys * sr) / det;
@@ -75,7 +74,7 @@ private:
         return rate;
     }
 
-    /// How much each axis wanders beside its noise is what is likeliest.
+    /// How much each axis wanders compared with its noise is what is likeliest.
     void choose_ratios() {
         constexpr std::size_t kFewest = 100;
         const std::size_t count = samples_of(free_);
@@ -95,9 +94,9 @@ private:
                 const double squares =
                     solve_axis(axis, whiten(driven.spin_N_m_s[at], free_, ratio).values)
                         .squaredNorm();
-                const double told = unlikelihood(squares, rate.logs, count);
-                if (told < least) {
-                    least = told;
+                const double unlikely = unlikelihood(squares, rate.logs, count);
+                if (unlikely < least) {
+                    least = unlikely;
                     axis.deviation = std::sqrt(squares / static_cast<double>(count));
                     axes_[at] = axis;
                 }

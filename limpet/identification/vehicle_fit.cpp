@@ -19,11 +19,29 @@ using Eigen::VectorXd;
 
 constexpr double kNormal = 1.959963984540054;  ///< of kConfidence, two-sided
 
+/// What a fit needs of a log.
+/// @throws InputError
+void need(bool given, const std::string& else_why) {
+    if (!given) {
+        throw InputError(else_why);
+    }
+}
+
+/// Why a fit fails becomes a note.
+template <class Estimate>
+void note_failure(VehicleFit& fit, const char* what, const Estimate& estimate) {
+    try {
+        estimate();
+    } catch (const InputError& error) {
+        fit.notes.push_back(fmt::format("{}: {}", what, error.what()));
+    }
+}
+
 /// A column of numbers at another's times: the last that was known.
 class LastKnown {
 public:
     LastKnown(const std::vector<double>& time_s) : time_s_(time_s) {}
-    /// @param time_s  not earlier than the last time asked for
+    /// @param time_s  not earlier than in the last call
     /// @return its place; nullopt before the first
     [[nodiscard]] std::optional<std::size_t> at(double time_s) {
         while (next_ < time_s_.size() && time_s_[next_] <= time_s + 1e-9) {
@@ -137,7 +155,7 @@ Fitted wandering_slope(const std::array<VectorXd, 2>& inputs,
                        const std::array<VectorXd, 2>& outputs,
                        const std::vector<Stretch>& stretches) {
     struct ByRatio {
-        double slope, variance, told;
+        double slope, variance, unlikely;
     };
     std::vector<ByRatio> all;
     double least = std::numeric_limits<double>::infinity();
@@ -155,11 +173,11 @@ Fitted wandering_slope(const std::array<VectorXd, 2>& inputs,
         const double squares = yy - xy * xy / xx;
         all.push_back({xy / xx, squares / static_cast<double>(count) / xx,
                        unlikelihood(squares, logs, count)});
-        least = std::min(least, all.back().told);
+        least = std::min(least, all.back().unlikely);
     }
     double sum = 0.0, mean = 0.0, square = 0.0;
-    for (const auto& [slope, variance, told] : all) {
-        const double weight = std::exp(-0.5 * (told - least));
+    for (const auto& [slope, variance, unlikely] : all) {
+        const double weight = std::exp(-0.5 * (unlikely - least));
         sum += weight;
         mean += weight * slope;
         square += weight * (slope * slope + variance);
@@ -193,7 +211,7 @@ void fit_drag(const FlightData& data, const vehicle::Airframe& airframe,
     std::array<VectorXd, 2> inputs, outputs;
     inputs.fill(VectorXd::Zero(n));
     outputs.fill(VectorXd::Zero(n));
-    std::vector<Stretch> told;  // of what is free, what has a velocity and an accelerometer
+    std::vector<Stretch> known;  // of what is free, what has a velocity and an accelerometer
     double fastest_m_s = 0.0;
     for (const Stretch& stretch : free) {
         bool goes_on = false;
@@ -216,19 +234,15 @@ void fit_drag(const FlightData& data, const vehicle::Airframe& airframe,
                     data.specific_force_B_m_s2[k][i] + turned_m_s2[i];
             }
             if (!goes_on) {
-                told.push_back({k, k});
+                known.push_back({k, k});
             }
             goes_on = true;
-            told.back().last = k + 1;
+            known.back().last = k + 1;
         }
     }
-    if (fastest_m_s < kLeast_m_s) {
-        fit.notes.emplace_back(data.velocity_s.empty()
-                                   ? "no velocity in the log: nothing tells the drag"
-                                   : "it never flies faster than 0.2 m/s: nothing tells the drag");
-        return;
-    }
-    fit.drag_constant_kg = wandering_slope(inputs, outputs, told);
+    need(!data.velocity_s.empty(), "no velocity in the log");
+    need(fastest_m_s >= kLeast_m_s, "it never flies faster than 0.2 m/s");
+    fit.drag_constant_kg = wandering_slope(inputs, outputs, known);
 }
 
 constexpr double kPress_N = 2.0;  ///< pressed harder: it touches
@@ -284,27 +298,15 @@ void fit_slider(const FlightData& data, VehicleFit& fit) {
     constexpr std::size_t kFewest = 8;
     const auto touch = std::find_if(data.force_N.begin(), data.force_N.end(),
                                     [](double force) { return force < -kPress_N; });
-    if (touch == data.force_N.end() || data.velocity_s.empty() || data.imu_s.empty()) {
-        fit.notes.emplace_back(data.force_s.empty()
-                                   ? "no force sensor in the log: nothing tells the slider"
-                                   : "the cup is never pressed, or there is no IMU or velocity "
-                                     "without it the slider cannot be estimated");
-        return;
-    }
+    need(!data.force_s.empty(), "no force sensor in the log");
+    need(touch != data.force_N.end(), "the cup is never pressed");
+    need(!data.velocity_s.empty() && !data.imu_s.empty(), "no IMU or no velocity in the log");
     const double touch_s = data.force_s[static_cast<std::size_t>(touch - data.force_N.begin())];
     LastKnown velocity(data.velocity_s);
     const auto before = velocity.at(touch_s - 0.01);
-    if (!before) {
-        fit.notes.emplace_back("no velocity before the touch: nothing tells the slider");
-        return;
-    }
+    need(before.has_value(), "no velocity before the touch");
     const std::vector<Pressed> rows = pressed_from(data, touch_s, data.velocity_B_m_s[*before].x());
-    if (rows.size() < kFewest) {
-        fit.notes.emplace_back(
-            "the touch is too short for this log's rates: nothing tells the "
-            "slider");
-        return;
-    }
+    need(rows.size() >= kFewest, "the touch is too short for this log's rates");
     MatrixXd inputs(static_cast<Eigen::Index>(rows.size()), 3);
     VectorXd outputs(inputs.rows());
     for (Eigen::Index i = 0; i < inputs.rows(); ++i) {
@@ -337,42 +339,28 @@ TurningFit with_unsure_drag(const FlightData& data, const vehicle::Airframe& air
 }
 
 void fit_motion(const FlightData& data, const vehicle::Airframe& airframe, VehicleFit& fit) {
-    if (data.imu_s.empty() || data.command_s.empty()) {
-        fit.notes.emplace_back(
-            "no gyro or no motor commands in the log: nothing tells inertia, "
-            "motors' lag and drag");
-        return;
-    }
+    need(!data.imu_s.empty() && !data.command_s.empty(), "no gyro or no motor commands in the log");
     const std::size_t motors = data.command.front().size();
-    if (motors != airframe.rotors.size()) {
-        fit.notes.push_back(fmt::format(
-            "the log has {} motors, the vehicle {}: nothing tells inertia, lag and drag", motors,
-            airframe.rotors.size()));
-        return;
-    }
+    need(motors == airframe.rotors.size(),
+         fmt::format("the log has {} motors, the vehicle {}", motors, airframe.rotors.size()));
     constexpr double kSlowest_s = 0.0055;
     const double spacing = spacing_s(data.command_s);
-    if (spacing > kSlowest_s) {
-        fit.notes.push_back(fmt::format(
-            "motor commands come at {:.0f} Hz: inertia, lag and drag need 200 Hz and more (of a "
-            "simulation --set simulation.record_rate_Hz=250, of PX4 SDLOG_PROFILE's high rate)",
-            1.0 / spacing));
-        return;
-    }
+    need(
+        !(spacing > kSlowest_s),
+        fmt::format("motor commands come at {:.0f} Hz, 200 Hz and more are needed (of a simulation "
+                    "--set simulation.record_rate_Hz=250, of PX4 SDLOG_PROFILE's high rate)",
+                    1.0 / spacing));
     const std::vector<Stretch> free = free_flight(data);
     for (const Stretch& stretch : free) {
         fit.free_s += data.imu_s[stretch.last - 1] - data.imu_s[stretch.first];
     }
     constexpr double kLeast_s = 2.0;
-    if (fit.free_s < kLeast_s) {
-        fit.notes.push_back(
-            fmt::format("{:.1f} s of free flight: inertia, lag and drag need 2 s", fit.free_s));
-        return;
-    }
+    need(fit.free_s >= kLeast_s,
+         fmt::format("{:.1f} s of free flight, 2 s are needed", fit.free_s));
     // What air and cup do to the turning needs lambda_1 and the inertia: once more with those
     // found.
     const TurningFit first = fit_turning(data, airframe, free);
-    fit_drag(data, airframe, free, first, fit);
+    note_failure(fit, "drag", [&] { fit_drag(data, airframe, free, first, fit); });
     vehicle::Airframe found = airframe;
     found.inertia_kg_m2 = first.per_inertia.cwiseInverse().cwiseMax(0.5 * airframe.inertia_kg_m2);
     if (fit.drag_constant_kg) {
@@ -396,22 +384,13 @@ void fit_motion(const FlightData& data, const vehicle::Airframe& airframe, Vehic
 
 VehicleFit identify_vehicle(const FlightData& data, const vehicle::Airframe& airframe) {
     VehicleFit fit;
-    const auto trying = [&fit](const char* what, auto&& does) {
-        try {
-            does();
-        } catch (const InputError& error) {
-            fit.notes.push_back(fmt::format("{}: {}", what, error.what()));
-        }
-    };
-    trying("inertia, motors' lag and drag", [&] { fit_motion(data, airframe, fit); });
-    if (!airframe.has_cup) {
-        return fit;
-    }
-    fit_slider(data, fit);
-    if (data.pressure.t_s.empty()) {
-        fit.notes.emplace_back("no cup pressure in the log: nothing tells the surface");
-    } else {
-        trying("pressure", [&] { fit.pressure = identify_pressure(data.pressure); });
+    note_failure(fit, "inertia, motors' lag and drag", [&] { fit_motion(data, airframe, fit); });
+    if (airframe.has_cup) {
+        note_failure(fit, "slider", [&] { fit_slider(data, fit); });
+        note_failure(fit, "pressure", [&] {
+            need(!data.pressure.t_s.empty(), "no cup pressure in the log");
+            fit.pressure = identify_pressure(data.pressure);
+        });
     }
     return fit;
 }

@@ -12,7 +12,7 @@
 
 namespace limpet::identification {
 
-/// What a flight's log tells of its vehicle. What the log cannot tell has no value, and a note says
+/// What a flight's log says of its vehicle. What it does not say has no value, and a note says
 /// why; intervals are of kConfidence.
 struct VehicleFit {
     std::array<std::optional<Fitted>, 3> inertia_kg_m2 = {};  ///< of the whole vehicle, x, y, z
@@ -34,7 +34,7 @@ struct VehicleFit {
 /// 13.4). Drag: specific force across the rotors' axes over the hubs' velocity in still air, on a
 /// bias that wanders. Slider: the force in it over how far and how fast the body goes on after the
 /// touch, its acceleration integrated twice.
-/// Of a vehicle without a cup neither slider nor pressure are asked for.
+/// Of a vehicle without a cup neither slider nor pressure are expected.
 /// @param airframe  what is taken as known: rotors' places and thrust, the cup's hinges, mass; its
 ///                  inertia, lags and lambda_1 are where the search begins
 [[nodiscard]] VehicleFit identify_vehicle(const FlightData& data,

@@ -2,18 +2,16 @@
 #include "limpet/lab/lab.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/lab/request.hpp"
-#include "limpet/lab/schema.hpp"
 #include "limpet/report/view.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/sections.hpp"
 #include "limpet/simulation/flight.hpp"
 
 namespace limpet::lab {
@@ -24,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kLongestFlight = std::chrono::seconds(20);  ///< of wall time
 
-scenario::Scenario load(const Asked& asked) {
+scenario::Scenario load(const FlightRequest& asked) {
     return scenario::load_scenario(asked.scenario, {.overrides = asked.changes});
 }
 
@@ -34,6 +32,45 @@ nlohmann::json names_json(const std::vector<scenario::CatalogueEntry>& entries) 
         names.push_back({{"name", entry.name}, {"description", entry.description}});
     }
     return names;
+}
+
+std::string key_of(const scenario::Section& section, std::string_view name) {
+    return section.name + "." + std::string(name);
+}
+
+nlohmann::json row_json(const scenario::Section& section, const BoundParameter& row) {
+    return {{"key", key_of(section, row.name)},
+            {"unit", row.unit},
+            {"minimum", row.minimum},
+            {"maximum", row.maximum},
+            {"value", row.value.get()},
+            {"kind", row.value.is_switch()  ? "switch"
+                     : row.value.is_count() ? "count"
+                                            : "number"},
+            {"what", row.description},
+            {"source", row.source}};
+}
+
+nlohmann::json choice_json(const scenario::Section& section, const scenario::Choice& choice) {
+    return {{"key", key_of(section, choice.key)},
+            {"names", names_json(choice.names)},
+            {"chosen", choice.names[choice.chosen].name}};
+}
+
+/// Sections with rows and choices (Lab::schema()).
+nlohmann::json schema_of(scenario::Scenario scenario) {
+    nlohmann::json sections = nlohmann::json::array();
+    for (const scenario::Section& section : scenario_sections(scenario)) {
+        nlohmann::json rows = nlohmann::json::array(), choices = nlohmann::json::array();
+        for (const BoundParameter& row : section.rows) {
+            rows.push_back(row_json(section, row));
+        }
+        for (const scenario::Choice& choice : section.choices) {
+            choices.push_back(choice_json(section, choice));
+        }
+        sections.push_back({{"name", section.name}, {"rows", rows}, {"choices", choices}});
+    }
+    return {{"sections", sections}};
 }
 
 /// The page of recordings with a place for the lab in it, which may ask this server, and flights
@@ -61,23 +98,13 @@ serve::Response recording_answer(std::string bytes) {
 }  // namespace
 
 Lab::Lab(std::string scenario, const std::atomic<bool>* stop, fs::path keep)
-    : first_(std::move(scenario)), stop_(stop) {
+    : first_(std::move(scenario)),
+      stop_(stop),
+      learn_(first_),
+      swing_(first_),
+      many_(first_, scratch_.path() / "many", std::move(keep)) {
     (void)report::view_page();
     (void)scenario::load_scenario(first_);
-    std::string folder = (fs::temp_directory_path() / "limpet_lab_XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr) {
-        throw InputError("cannot make " + folder);
-    }
-    scratch_ = folder;
-    learn_ = std::make_unique<Learn>(first_);
-    swing_ = std::make_unique<Swing>(first_);
-    many_ = std::make_unique<Many>(first_, scratch_ / "many", std::move(keep));
-}
-
-Lab::~Lab() {
-    many_.reset();
-    std::error_code ignored;
-    fs::remove_all(scratch_, ignored);
 }
 
 std::string Lab::catalogue() const {
@@ -91,7 +118,7 @@ std::string Lab::catalogue() const {
 }
 
 std::string Lab::schema(std::string_view request) const {
-    const scenario::Scenario scenario = load(asked_in(object_in(request), first_));
+    const scenario::Scenario scenario = load(flight_request_in(object_in(request), first_));
     nlohmann::json answer = schema_of(scenario);
     answer["surface"] = scenario.wall.present ? scenario.wall.surface.name : "";
     answer["seed"] = scenario.seed;
@@ -99,9 +126,9 @@ std::string Lab::schema(std::string_view request) const {
 }
 
 std::string Lab::fly(std::string_view request) {
-    const Asked asked = asked_in(object_in(request), first_);
+    const FlightRequest asked = flight_request_in(object_in(request), first_);
     const auto model = simulation::build_model(load(asked));
-    const fs::path recording = scratch_ / "flight.mcap";
+    const fs::path recording = scratch_.path() / "flight.mcap";
     std::atomic<bool> enough = false;
     const simulation::FlightWatch watch{
         .on_event = {}, .on_progress = [&, end = Clock::now() + kLongestFlight](double, auto) {
@@ -114,7 +141,7 @@ std::string Lab::fly(std::string_view request) {
 }
 
 std::string Lab::yaml(std::string_view request) const {
-    return to_yaml(load(asked_in(object_in(request), first_)));
+    return to_yaml(load(flight_request_in(object_in(request), first_)));
 }
 
 void Lab::serve_on(serve::Server& server) {
@@ -123,9 +150,16 @@ void Lab::serve_on(serve::Server& server) {
                                .body = page_html(),
                                .headers = {{"Cache-Control", "no-store"}}};
     });
-    server.get("/catalogue", [this](const serve::Request&) { return json_answer(catalogue()); });
-    server.post("/schema",
-                [this](const serve::Request& asked) { return json_answer(schema(asked.body)); });
+    const auto get = [&server](const char* path, auto answer) {
+        server.get(path, [answer](const serve::Request&) { return json_answer(answer()); });
+    };
+    const auto post = [&server](const char* path, auto answer) {
+        server.post(path, [answer](const serve::Request& asked) {
+            return json_answer(answer(asked.body));
+        });
+    };
+    get("/catalogue", [this] { return catalogue(); });
+    post("/schema", [this](std::string_view request) { return schema(request); });
     server.post("/yaml", [this](const serve::Request& asked) {
         return serve::Response{.content_type = "application/yaml", .body = yaml(asked.body)};
     });
@@ -137,38 +171,33 @@ void Lab::serve_on(serve::Server& server) {
                                     fmt::format("flight;dur={:.2f}", took.count()));
         return answer;
     });
-    server.post("/many/begin", [this](const serve::Request& asked) {
-        many_->begin(asked.body);
-        return json_answer(many_->rows("{}"));
+    post("/many/begin", [this](std::string_view request) {
+        many_.begin(request);
+        return many_.rows("{}");
     });
-    server.post("/many/stop", [this](const serve::Request&) {
-        many_->stop();
-        return json_answer("{}");
-    });
-    server.post("/many/rows", [this](const serve::Request& asked) {
-        return json_answer(many_->rows(asked.body));
-    });
-    server.post("/learn/begin", [this](const serve::Request& asked) {
-        learn_->begin(asked.body);
-        return json_answer(learn_->state());
-    });
-    server.post("/learn/stop", [this](const serve::Request&) {
-        learn_->stop();
-        return json_answer("{}");
-    });
-    server.get("/learn", [this](const serve::Request&) { return json_answer(learn_->state()); });
-    server.post("/swing/begin", [this](const serve::Request& asked) {
-        swing_->begin(asked.body);
-        return json_answer(swing_->state());
-    });
-    server.post("/swing/stop", [this](const serve::Request&) {
-        swing_->stop();
-        return json_answer("{}");
-    });
-    server.get("/swing", [this](const serve::Request&) { return json_answer(swing_->state()); });
+    post("/many/rows", [this](std::string_view request) { return many_.rows(request); });
     server.post("/many/flight", [this](const serve::Request& asked) {
-        return recording_answer(many_->flight(asked.body));
+        return recording_answer(many_.flight(asked.body));
     });
+    get("/learn", [this] { return learn_.state(); });
+    post("/learn/begin", [this](std::string_view request) {
+        learn_.begin(request);
+        return learn_.state();
+    });
+    get("/swing", [this] { return swing_.state(); });
+    post("/swing/begin", [this](std::string_view request) {
+        swing_.begin(request);
+        return swing_.state();
+    });
+    const auto stop = [&post](const char* path, auto& work) {
+        post(path, [&work](std::string_view) {
+            work.stop();
+            return std::string("{}");
+        });
+    };
+    stop("/many/stop", many_);
+    stop("/learn/stop", learn_);
+    stop("/swing/stop", swing_);
 }
 
 }  // namespace limpet::lab

@@ -3,10 +3,10 @@
 
 #include <atomic>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 
+#include "limpet/draw/gnuplot.hpp"
 #include "limpet/lab/learn.hpp"
 #include "limpet/lab/many.hpp"
 #include "limpet/lab/swing.hpp"
@@ -14,7 +14,7 @@
 
 namespace limpet::lab {
 
-/// What the page asks for. Nothing is kept between two requests but the flights that it began
+/// Replies to the page. Nothing is kept between two requests but the flights that it began
 /// and has not ended: a campaign, what turning each parameter does, the map of the swing.
 class Lab {
 public:
@@ -24,7 +24,7 @@ public:
     /// @throws InputError if there is no such scenario, or the program has no page
     explicit Lab(std::string scenario, const std::atomic<bool>* stop = nullptr,
                  std::filesystem::path keep = {});
-    ~Lab();
+    ~Lab() = default;
     Lab(const Lab&) = delete;
     Lab& operator=(const Lab&) = delete;
 
@@ -44,16 +44,16 @@ public:
     /// @return the scenario as YAML that stands for itself
     [[nodiscard]] std::string yaml(std::string_view request) const;
 
-    /// The page and what it asks for; `server` must end before this does.
+    /// The page and the replies to its requests; `server` must end before this does.
     void serve_on(serve::Server& server);
 
 private:
     std::string first_;
     const std::atomic<bool>* stop_;
-    std::filesystem::path scratch_;
-    std::unique_ptr<Learn> learn_;
-    std::unique_ptr<Swing> swing_;
-    std::unique_ptr<Many> many_;
+    const draw::gnuplot::TemporaryFolder scratch_;
+    Learn learn_;
+    Swing swing_;
+    Many many_;
 };
 
 }  // namespace limpet::lab

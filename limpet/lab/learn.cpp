@@ -52,7 +52,7 @@ Learn::~Learn() {
 void Learn::begin(std::string_view request) {
     const json json = object_in(request);
     const double share = share_in(json);
-    Asked asked = asked_in(json, first_);
+    FlightRequest asked = flight_request_in(json, first_);
     scenario::Scenario scenario =
         scenario::load_scenario(asked.scenario, {.overrides = asked.changes});
     std::vector<Turned> flights(1);

@@ -52,7 +52,7 @@ private:
     void fly_all();
 
     const std::string first_;
-    Asked asked_;
+    FlightRequest asked_;
     int id_ = 0;
     std::atomic<bool> stop_ = false, running_ = false;
     std::atomic<std::size_t> next_ = 0;

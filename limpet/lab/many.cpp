@@ -8,7 +8,6 @@
 #include <new>
 
 #include "limpet/campaign/statistics.hpp"
-#include "limpet/campaign/success.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
 #include "limpet/lab/request.hpp"
@@ -25,7 +24,7 @@ constexpr std::uint32_t kMostRuns = 20'000;  ///< rows stay in memory, here and 
 constexpr std::size_t kMostRowsAtOnce = 5000;
 
 /// A campaign's file (data/campaigns/README.md) in JSON, which is YAML: the scenario over a grid.
-nlohmann::ordered_json file_text(const json& request, Asked asked) {
+nlohmann::ordered_json file_text(const json& request, FlightRequest asked) {
     const scenario::Scenario scenario =
         scenario::load_scenario(asked.scenario, {.overrides = asked.changes});
     std::erase_if(asked.changes, [](const std::string& text) { return text.starts_with("seed="); });
@@ -96,10 +95,10 @@ campaign::Campaign Many::campaign_in(std::string_view request) const {
         }
         const fs::path file = scratch_ / "lab.yaml";
         fs::create_directories(scratch_);
-        std::ofstream(file) << file_text(asked, asked_in(asked, first_)).dump(1);
+        std::ofstream(file) << file_text(asked, flight_request_in(asked, first_)).dump(1);
         try {
             return campaign::load_campaign(file.string());
-        } catch (const InputError& error) {  // who asked knows no line of that file
+        } catch (const InputError& error) {  // the user does not know that file
             const std::string message = error.what();
             const std::string place = scenario::shown_path(file) + ":";
             const std::size_t end = message.find(": ", place.size());

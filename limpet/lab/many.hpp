@@ -15,12 +15,12 @@
 
 namespace limpet::lab {
 
-/// A campaign that a page began: flown by campaign's own workers while the page asks how far it is.
+/// A campaign that a page began: flown by campaign's workers while the page polls its progress.
 /// One at a time; a new one takes the place of the last. Calls come from one thread.
 class Many {
 public:
     /// @param scenario  where a request names none
-    /// @param scratch   folder for what nobody keeps; made when needed
+    /// @param scratch   folder for what is not kept; made when needed
     /// @param keep      folder in which results stay, one below it a campaign; empty: none stay
     Many(std::string scenario, std::filesystem::path scratch, std::filesystem::path keep);
     /// Waits for the flights in the air.

@@ -59,17 +59,17 @@ void Trouble::say() const {
     }
 }
 
-Asked asked_in(const nlohmann::json& request, const std::string& first) {
+FlightRequest flight_request_in(const nlohmann::json& request, const std::string& first) {
     try {
-        Asked asked{.scenario = request.value("scenario", first),
-                    .changes = request.value("set", std::vector<std::string>{}),
-                    .brief = request.value("brief", false),
-                    .topics = request.value("topics", std::vector<std::string>{})};
+        FlightRequest asked{.scenario = request.value("scenario", first),
+                            .changes = request.value("set", std::vector<std::string>{}),
+                            .brief = request.value("brief", false),
+                            .topics = request.value("topics", std::vector<std::string>{})};
         if (asked.changes.size() > kMostChanges) {
             throw InputError(fmt::format("\"set\": {} changes, allowed are {}",
                                          asked.changes.size(), kMostChanges));
         }
-        // A page asks for what is installed, not for files.
+        // A page names what is installed, not files.
         if (scenario::is_path(asked.scenario)) {
             throw InputError("\"scenario\": a name, not a path");
         }

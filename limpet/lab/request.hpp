@@ -27,7 +27,7 @@ namespace limpet::lab {
                                      std::optional<std::uint32_t> otherwise = {});
 
 /// A scenario with what differs from it.
-struct Asked {
+struct FlightRequest {
     std::string scenario;
     std::vector<std::string> changes;  ///< "key=value" each
     bool brief = false;
@@ -35,9 +35,10 @@ struct Asked {
 };
 /// @param first  scenario where none is named
 /// @throws InputError when it is none, or its scenario a path
-[[nodiscard]] Asked asked_in(const nlohmann::json& request, const std::string& first);
+[[nodiscard]] FlightRequest flight_request_in(const nlohmann::json& request,
+                                              const std::string& first);
 
-/// What ended work on other threads, for who asks how far it is.
+/// What ended work on other threads, for the next request of its state.
 class Trouble {
 public:
     /// Within a catch: keeps the first.

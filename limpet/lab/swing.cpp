@@ -88,7 +88,7 @@ Swing::~Swing() {
 
 void Swing::begin(std::string_view request) {
     const json asked = object_in(request);
-    Asked wish = asked_in(asked, first_);
+    FlightRequest wish = flight_request_in(asked, first_);
     stability::StabilityMap map{
         .scenario = wish.scenario, .across = axis_in(asked, "across"), .up = axis_in(asked, "up")};
     std::copy_if(

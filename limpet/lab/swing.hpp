@@ -15,11 +15,11 @@
 namespace limpet::lab {
 
 /// Growth of the swing on the cup over two numbers, and where the vehicle itself is in it. The map
-/// is worked out while a page asks how far it is, coarse points first. Calls come from one thread.
+/// is computed while a page polls its progress, coarse points first. Calls come from one thread.
 class Swing {
 public:
     /// @param scenario  where a request names none
-    /// @param swing_of  what a point is asked of
+    /// @param swing_of  computes a point
     explicit Swing(std::string scenario, stability::SwingOf swing_of = stability::linear_swing)
         : first_(std::move(scenario)), swing_of_(std::move(swing_of)) {}
     /// Waits for the points that are being worked out.

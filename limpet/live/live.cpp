@@ -9,12 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/record/topics.hpp"
 
 namespace limpet::live {
 namespace {
 
-constexpr std::size_t kMostWords = 100;              // asked for and not yet answered
+constexpr std::size_t kMostRequests = 100;           // not yet answered
 constexpr std::uint64_t kTimeEvery_ns = 20'000'000;  // a viewer's clock steps as it draws
 
 std::string_view view_of(mcap::ByteView bytes) {
@@ -196,7 +197,7 @@ void Live::fetch(serve::Session& session, std::uint32_t request, std::string_vie
             asset_failure(request, fmt::format("there is no {} in this flight", uri)));
     } else if (!session.send_large(asset_response(request, mesh->second))) {
         session.send_text(
-            status(StatusLevel::warning, fmt::format("{}: too much is asked for at once", uri)));
+            status(StatusLevel::warning, fmt::format("{}: too many requests at once", uri)));
     }
 }
 
@@ -205,20 +206,17 @@ std::vector<LiveParameter> Live::wanted(const std::vector<std::string>& names) c
         return options_.parameters;
     }
     std::vector<LiveParameter> found;
-    for (const LiveParameter& parameter : options_.parameters) {
-        if (std::find(names.begin(), names.end(), parameter.name) != names.end()) {
-            found.push_back(parameter);
-        }
-    }
+    std::copy_if(options_.parameters.begin(), options_.parameters.end(), std::back_inserter(found),
+                 [&](const LiveParameter& parameter) {
+                     return std::find(names.begin(), names.end(), parameter.name) != names.end();
+                 });
     return found;
 }
 
 /// Why a viewer may not set it so; empty: it may.
 std::string Live::refusal(const std::string& name, double value) const {
-    const auto found =
-        std::find_if(options_.parameters.begin(), options_.parameters.end(),
-                     [&name](const LiveParameter& parameter) { return parameter.name == name; });
-    if (found == options_.parameters.end()) {
+    const LiveParameter* found = find_named(options_.parameters, name);
+    if (found == nullptr) {
         return fmt::format("there is no parameter {}", name);
     }
     if (!found->settable) {
@@ -235,11 +233,11 @@ std::string Live::refusal(const std::string& name, double value) const {
 }
 
 /// @return false: too many are waiting already
-bool Live::hear(Word word) {
-    if (words_.size() >= kMostWords) {
+bool Live::queue(Request request) {
+    if (requests_.size() >= kMostRequests) {
         return false;
     }
-    words_.push_back(std::move(word));
+    requests_.push_back(std::move(request));
     asked_ = true;
     return true;
 }
@@ -247,7 +245,7 @@ bool Live::hear(Word word) {
 /// Those that may be set are left for the flight; the others are refused, one by one.
 /// @throws nlohmann::json::exception
 void Live::set_parameters(Viewer& viewer, const nlohmann::json& asked) {
-    Word word{.from = viewer.session, .id = asked.value("id", "")};
+    Request request{.from = viewer.session, .id = asked.value("id", "")};
     std::vector<std::string> all;
     for (const nlohmann::json& one : asked.at("parameters")) {
         const auto name = one.at("name").get<std::string>();
@@ -258,10 +256,10 @@ void Live::set_parameters(Viewer& viewer, const nlohmann::json& asked) {
         if (const std::string why = refusal(name, value); !why.empty()) {
             viewer.session->send_text(status(StatusLevel::error, why));
         } else {
-            word.set.emplace_back(name, value);
+            request.set.emplace_back(name, value);
         }
     }
-    if (word.set.empty() || !hear(std::move(word))) {
+    if (request.set.empty() || !queue(std::move(request))) {
         viewer.session->send_text(parameter_values(wanted(all), asked.value("id", "")));
     }
 }
@@ -318,9 +316,9 @@ void Live::on_binary(serve::Session& session, std::string_view bytes) {
     const char* amiss = call->service >= options_.services.size() ? "there is no such service"
                         : call->encoding != "cdr"                 ? "must be encoded as cdr"
                                                                   : nullptr;
-    if (amiss == nullptr && !hear({.from = viewers_.at(&session).session,
-                                   .service = call->service,
-                                   .call = call->call})) {
+    if (amiss == nullptr && !queue({.from = viewers_.at(&session).session,
+                                    .service = call->service,
+                                    .call = call->call})) {
         amiss = "too many calls are waiting";
     }
     if (amiss != nullptr) {
@@ -332,49 +330,45 @@ void Live::answer(const LiveDesk& desk) {
     if (!asked_) {
         return;
     }
-    std::vector<Word> words;
+    std::vector<Request> requests;
     {
         const std::lock_guard lock(guards_all_);
-        std::swap(words, words_);
+        std::swap(requests, requests_);
         asked_ = false;
     }
-    for (const Word& word : words) {
-        apply(word, desk);
+    for (const Request& request : requests) {
+        apply(request, desk);
     }
 }
 
-void Live::apply(const Word& word, const LiveDesk& desk) {
-    if (word.set.empty()) {
-        const LiveAnswer answer = desk.serve(options_.services[word.service]);
-        word.from->send_binary(
-            {service_response(word.service, word.call, answer.done, answer.message)});
+void Live::apply(const Request& request, const LiveDesk& desk) {
+    if (request.set.empty()) {
+        const LiveAnswer answer = desk.serve(options_.services[request.service]);
+        request.from->send_binary(
+            {service_response(request.service, request.call, answer.done, answer.message)});
         return;
     }
     std::vector<std::string> names;
-    for (const auto& [name, value] : word.set) {
+    for (const auto& [name, value] : request.set) {
         desk.set(name, value);
         names.push_back(name);
     }
     const std::lock_guard lock(guards_all_);
-    for (const auto& [name, value] : word.set) {
-        for (LiveParameter& parameter : options_.parameters) {
-            if (parameter.name == name) {
-                parameter.value = value;
-            }
+    for (const auto& [name, value] : request.set) {
+        if (LiveParameter* parameter = find_named(options_.parameters, name)) {
+            parameter->value = value;
         }
     }
     for (const auto& [session, viewer] : viewers_) {
-        std::vector<LiveParameter> told = wanted(names);
-        if (viewer.session != word.from) {
-            told.erase(std::remove_if(told.begin(), told.end(),
-                                      [&viewer = viewer](const LiveParameter& parameter) {
-                                          return viewer.parameters.count(parameter.name) == 0;
-                                      }),
-                       told.end());
+        std::vector<LiveParameter> changed = wanted(names);
+        if (viewer.session != request.from) {
+            std::erase_if(changed, [&viewer = viewer](const LiveParameter& parameter) {
+                return viewer.parameters.count(parameter.name) == 0;
+            });
         }
-        if (!told.empty()) {
+        if (!changed.empty()) {
             viewer.session->send_text(
-                parameter_values(told, viewer.session == word.from ? word.id : ""));
+                parameter_values(changed, viewer.session == request.from ? request.id : ""));
         }
     }
 }

@@ -20,7 +20,7 @@
 
 namespace limpet::live {
 
-/// To who asked for something.
+/// The reply to a request.
 struct LiveAnswer {
     bool done = false;
     std::string message;
@@ -72,11 +72,11 @@ public:
     void attachment(const mcap::Attachment& attachment) override;
     void message(std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data) override;
 
-    /// Somebody has subscribed to something.
+    /// A viewer has subscribed to something.
     [[nodiscard]] bool watched() const { return watched_; }
-    /// Something has been asked for since the last answer().
+    /// There are requests since the last answer().
     [[nodiscard]] bool asked() const { return asked_; }
-    /// Does what has been asked for.
+    /// Handles the requests.
     void answer(const LiveDesk& desk);
     /// A line for all who watch.
     void say(StatusLevel level, std::string_view text);
@@ -100,9 +100,9 @@ private:
         std::shared_ptr<serve::Session> session;
         std::vector<std::optional<std::uint32_t>> subscriptions;  ///< by channel
         std::map<std::uint32_t, std::uint16_t> channels;          ///< by subscription
-        std::set<std::string, std::less<>> parameters;            ///< told of their changes
+        std::set<std::string, std::less<>> parameters;  ///< that it is sent when they change
     };
-    struct Word {
+    struct Request {
         std::shared_ptr<serve::Session> from;
         std::uint32_t service = 0, call = 0;
         std::vector<std::pair<std::string, double>> set = {};  ///< parameters; else a service
@@ -122,8 +122,8 @@ private:
     [[nodiscard]] std::vector<LiveParameter> wanted(const std::vector<std::string>& names) const;
     [[nodiscard]] std::string refusal(const std::string& name, double value) const;
     void set_parameters(Viewer& viewer, const nlohmann::json& asked);
-    [[nodiscard]] bool hear(Word word);
-    void apply(const Word& word, const LiveDesk& desk);
+    [[nodiscard]] bool queue(Request request);
+    void apply(const Request& request, const LiveDesk& desk);
 
     LiveOptions options_;
     std::string session_id_ = serve::make_token();
@@ -131,7 +131,7 @@ private:
     std::vector<LiveChannel> channels_;
     std::vector<Latch> latches_;
     std::map<const serve::Session*, Viewer> viewers_;
-    std::vector<Word> words_;
+    std::vector<Request> requests_;
     std::map<std::string, std::string, std::less<>> meshes_;  ///< by the name in their URI
     LiveCount count_;
     std::uint64_t next_time_ns_ = 0;

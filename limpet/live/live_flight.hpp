@@ -24,7 +24,7 @@ struct LiveFlightOptions {
     bool tunes = false;      ///< the autopilot's parameters may be set
 };
 
-/// A viewer's words to a flight of ours: pause, resume, take off, abort, the autopilot's
+/// A viewer's requests to a simulated flight: pause, resume, take off, abort, the autopilot's
 /// parameters.
 class LiveFlight {
 public:
@@ -35,9 +35,9 @@ public:
 
     /// After every tick; waits where a viewer wants it to, or for the first one.
     void tick(simulation::Flight& flight);
-    /// Tells how it ended.
+    /// Reports the ending.
     void end(const simulation::FlightResult& result);
-    /// What takes the recording's messages; what address and count are asked of.
+    /// Takes the recording's messages; has the address and the counts.
     [[nodiscard]] Live& live() { return live_; }
 
 private:

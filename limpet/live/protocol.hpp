@@ -42,11 +42,11 @@ struct LiveParameter {
 [[nodiscard]] std::string server_info(const std::string& name, const std::string& session,
                                       bool parameters, bool services);
 [[nodiscard]] std::string advertise(std::span<const LiveChannel> channels);
-/// All of std_srvs/srv/Trigger: nothing asked, done or not and why answered.
+/// All are of std_srvs/srv/Trigger: an empty request; the response is done or not, and why.
 /// @param names  their place is their id
 [[nodiscard]] std::string advertise_services(const std::vector<std::string>& names);
 [[nodiscard]] std::string status(StatusLevel level, std::string_view text);
-/// Beside the protocol's own keys each says whether it may be set and within what.
+/// In addition to the protocol's keys: whether it may be set, and its range.
 /// @param id  of the request that this answers; empty: none
 [[nodiscard]] std::string parameter_values(std::span<const LiveParameter> parameters,
                                            const std::string& id);
@@ -62,7 +62,7 @@ struct LiveParameter {
 [[nodiscard]] std::string service_response(std::uint32_t service, std::uint32_t call, bool done,
                                            std::string_view text);
 
-/// A file that was asked for.
+/// A file that was requested.
 [[nodiscard]] std::string asset_response(std::uint32_t request, std::string_view file);
 /// Or why it is not there.
 [[nodiscard]] std::string asset_failure(std::uint32_t request, std::string_view text);

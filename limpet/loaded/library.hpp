@@ -9,7 +9,7 @@ namespace limpet::loaded {
 /// closed.
 class Library {
 public:
-    /// @param file  soname, looked for beside the program and where the system has its libraries,
+    /// @param file  soname, looked for next to the program and where the system has its libraries,
     ///              or a path
     /// @throws NotInstalled the loader's words
     explicit Library(const std::string& file);

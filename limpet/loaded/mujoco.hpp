@@ -54,8 +54,8 @@ struct Mujoco {
 /// @return Debian's package of the library
 [[nodiscard]] std::string mujoco_package();
 
-/// MuJoCo, loaded by who first asks: the library that LIMPET_MUJOCO names, else the one of the
-/// header's version beside the program or where the system has it. From any thread.
+/// MuJoCo, loaded on first use: the library that LIMPET_MUJOCO names, else the one of the
+/// header's version next to the program or where the system has it. From any thread.
 /// @throws NotInstalled as Mujoco
 [[nodiscard]] const Mujoco& mujoco();
 

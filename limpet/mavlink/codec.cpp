@@ -86,7 +86,7 @@ std::optional<Frame> Parser::next(ByteView& bytes) {
             if (end_ - begin_ < wanted) {
                 return std::nullopt;
             }
-            continue;  // what came may ask for more
+            continue;  // what came may need more
         }
         if (const auto frame = judge()) {
             return frame;

@@ -41,7 +41,7 @@ struct Sender {
     std::uint8_t sequence = 0;
 };
 
-/// A frame that arrived whole. `payload` and `bytes` are the parser's, until it is asked again.
+/// A frame that arrived whole. `payload` and `bytes` are the parser's, until its next call.
 struct Frame {
     std::uint32_t id = 0;
     std::uint8_t system = 0;
@@ -125,13 +125,13 @@ template <class Message>
 
 /// The answer to a command.
 /// @param result  MAV_RESULT
-/// @param asked   the frame that it came in
+/// @param request  the frame that it came in
 [[nodiscard]] inline CommandAck acknowledgement(const CommandLong& command, std::uint8_t result,
-                                                const Frame& asked) {
+                                                const Frame& request) {
     return {.command = command.command,
             .result = result,
-            .target_system = asked.system,
-            .target_component = asked.component};
+            .target_system = request.system,
+            .target_component = request.component};
 }
 
 /// Bytes in, frames out, whatever the bytes.

@@ -110,8 +110,8 @@ class Field:
         self.element_bytes = ELEMENT_BYTES[self.element]
         self.bytes = self.element_bytes * (self.length or 1)
         unit = f"[{node['units']}]" if node["units"] else ""
-        said = " ".join([*node.text.split(), unit]).strip()
-        self.comment = ", ".join(filter(None, [said, node["enum"]]))
+        text = " ".join([*node.text.split(), unit]).strip()
+        self.comment = ", ".join(filter(None, [text, node["enum"]]))
 
     def member(self):
         cpp = f"std::{self.element}" if "int" in self.element else self.element
@@ -151,7 +151,7 @@ def message_text(node):
         node.refuse(f"{size} bytes, must be 1 to 255")
     name, struct = node["name"], struct_name(node["name"])
     info = f"kId, kName, {crc_extra(name, base)}, {size}, {sum(f.bytes for f in base)}"
-    lines = ["/// " + " ".join(said.text.split()) for said in node.all("description")]
+    lines = ["/// " + " ".join(line.text.split()) for line in node.all("description")]
     lines += [f"struct {struct} {{",
               f"    static constexpr std::uint32_t kId = {node['id']};",
               f'    static constexpr std::string_view kName = "{name}";',

@@ -10,14 +10,14 @@ namespace {
 using std::chrono::duration;
 using std::chrono::milliseconds;
 
-/// So that Ctrl-C is heard.
+/// So that Ctrl-C is noticed.
 constexpr milliseconds kSlice{100};
 /// Until the first answer: long enough for one to come, short enough to go on booting.
 constexpr milliseconds kBootWait{4};
 /// Half a period at 250 Hz: the motors are then for these sensors, not for the last ones.
 constexpr milliseconds kRealTimeWait{2};
 /// One that has not answered by then is not booting but slow: it must not be left far behind, or
-/// who hears what when would depend on the machine. Source: px4.md "Simulator link", first
+/// who receives what when would depend on the machine. Source: px4.md "Simulator link", first
 /// answer to 22 to 34
 constexpr std::size_t kBootSensors = 50;
 constexpr milliseconds kSlowBootWait{50};

@@ -21,7 +21,7 @@ namespace limpet::mavlink {
 void sign(Link& link, const std::filesystem::path& key_file, std::uint8_t link_id = 0);
 
 /// Where a link's signing timestamps lie: KEY_FILE's name, and who sends on which link.
-/// @param folder  empty: beside the key
+/// @param folder  empty: next to the key
 [[nodiscard]] std::filesystem::path stamp_path(const std::filesystem::path& key_file,
                                                const std::filesystem::path& folder,
                                                const Sender& self, std::uint8_t link_id);

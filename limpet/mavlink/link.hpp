@@ -11,7 +11,6 @@
 #include <string>
 
 #include "limpet/mavlink/codec.hpp"
-#include "limpet/mavlink/refusals.hpp"
 #include "limpet/mavlink/signing.hpp"
 #include "limpet/mavlink/stamp_file.hpp"
 #include "limpet/wire/transport.hpp"
@@ -48,7 +47,7 @@ struct LinkCount {
     Refusals refusals;  ///< of who wants to be a peer, too
 };
 
-/// Messages to and from one peer: a transport, a parser, a sequence number and, when asked for,
+/// Messages to and from one peer: a transport, a parser, a sequence number and, when requested,
 /// signatures. For one thread. Sending and receiving allocate nothing.
 class Link {
 public:
@@ -61,7 +60,7 @@ public:
     /// @param message  of that kind alone; empty: of any that is known
     void admit_by(std::optional<std::uint32_t> message);
 
-    /// @param timeout  longest wait for room in the wire
+    /// @param timeout  longest wait for space in the wire
     template <class Message>
     wire::TransferStatus send(const Message& message,
                               std::chrono::nanoseconds timeout = std::chrono::milliseconds(100)) {

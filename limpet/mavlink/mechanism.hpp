@@ -23,7 +23,7 @@ struct MechanismCommand {
 };
 
 /// First actuator: pump, second: valve, 1 on, 0 off.
-/// @param confirmation  how often it was said before
+/// @param confirmation  how often it was sent before
 [[nodiscard]] inline CommandLong actuator_command(const MechanismCommand& command,
                                                   std::uint8_t system, std::uint8_t confirmation) {
     return {.target_system = system,

@@ -7,7 +7,7 @@
 /// tests/mavlink/message_table.hpp.
 namespace limpet::mavlink {
 
-/// As a HEARTBEAT tells it.
+/// As a HEARTBEAT reports it.
 inline constexpr std::uint8_t kMavlinkVersion = 3;
 
 /// @return what is known of a message, nullptr when Limpet does not speak it

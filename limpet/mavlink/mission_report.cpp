@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kOutcome = "outcome";
 constexpr std::string_view kAnd = ": ";
 
-/// What does not fit is let go of.
+/// What does not fit is cut.
 template <class... Pieces>
 StatusText info(const Pieces&... pieces) {
     StatusText message{.severity = MavSeverity::info};
@@ -54,12 +54,12 @@ StatusText outcome_text(Outcome outcome, std::string_view reason) {
 
 std::optional<ToldOutcome> told_outcome(const StatusText& message) {
     const Parts whole = part(text_of(message.text));
-    const Parts told = part(whole.rest);
-    const std::optional<Outcome> outcome = outcome_from(told.head);
+    const Parts parts = part(whole.rest);
+    const std::optional<Outcome> outcome = outcome_from(parts.head);
     if (whole.head != kOutcome || !outcome) {
         return std::nullopt;
     }
-    return ToldOutcome{.outcome = *outcome, .reason = told.rest};
+    return ToldOutcome{.outcome = *outcome, .reason = parts.rest};
 }
 
 NamedValueFloat guidance_state(int state, std::uint32_t time_boot_ms) {

@@ -9,7 +9,7 @@
 #include "limpet/core/signals/outcome.hpp"
 #include "limpet/mavlink/messages.hpp"
 
-/// What a companion tells of its mission, on the sensors' wire and to people: events and the
+/// What a companion reports of its mission, on the sensors' wire and to people: events and the
 /// outcome as STATUSTEXT, the state of guidance as NAMED_VALUE_FLOAT. The last heartbeats carry
 /// MavState::poweroff (mechanism.hpp).
 namespace limpet::mavlink {

@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <cstring>
+#include <string_view>
+#include <utility>
 #include <variant>
 
 #include "limpet/core/errors.hpp"
@@ -14,7 +16,16 @@
 namespace limpet::mavlink {
 namespace {
 
-/// Room in a wire is waited for no longer: a jammed one must not make guidance late.
+constexpr int kMostChunks = 20;
+
+std::string fit_to_print(std::string_view text) {
+    std::string out(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
+    std::replace_if(
+        out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return out;
+}
+
+/// Space in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
 constexpr std::string_view kAirframe = "SYS_AUTOSTART";
 constexpr float kCustomMode = MavModeFlag::custom_mode_enabled;
@@ -55,8 +66,8 @@ void Offboard::hear(const Frame& frame, double time_s) {
             report_.offboard = main_mode(beat->custom_mode) == kMainModeOffboard;
             was_engaged_ = was_engaged_ || (report_.offboard && streaming_s_ >= 0.0);
         }
-    } else if (const auto told = decode<Odometry>(frame)) {
-        const auto estimate = estimate_from(*told);
+    } else if (const auto odometry = decode<Odometry>(frame)) {
+        const auto estimate = estimate_from(*odometry);
         if (estimate && estimate->valid) {  // one that failed by its own account is none
             estimate_ = *estimate;
             estimate_.time_s = time_s;
@@ -98,7 +109,7 @@ void Offboard::hear_command_ack(const CommandAck& ack) {
         }
         hold_accepted_ = hold_accepted_ || (handed_back_ && ack.command == MavCmd::do_set_mode);
     } else if (ack.command == MavCmd::request_message) {
-        // What else it is asked for every autopilot has; one that is busy has not said so.
+        // Every autopilot has what else is requested; one that is busy has not reported it.
         no_origin_ = no_origin_ || ack.result != MavResult::temporarily_rejected;
     } else if (ack.command != MavCmd::set_message_interval) {
         report_.refused_command = ack.command;
@@ -156,7 +167,7 @@ void Offboard::send_set_point(Link& link, const Setpoint& setpoint, double time_
         (void)link.send(message, kPatience);
     };
     const std::uint32_t now_ms = boot_ms(time_s);
-    // Disarmed or idle, it is told what it is: whatever it would do for a position, it must not.
+    // Disarmed or idle, it is sent what it is: whatever it would do for a position, it must not.
     const AttitudeSetpoint rest{.q_WB = estimate_.q_WB, .thrust = 0.0};
     if (forgets(setpoint, time_s)) {
         send(position_target(
@@ -172,7 +183,7 @@ void Offboard::send_set_point(Link& link, const Setpoint& setpoint, double time_
     }
 }
 
-/// What is not yet as it should be is asked for, one thing at a time.
+/// What is not yet as it should be is requested, one thing at a time.
 void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
     const OffboardState now = state(time_s);
     const bool warm = streaming_s_ >= 0.0 && time_s - streaming_s_ >= options_.warm_up_s;
@@ -182,7 +193,7 @@ void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
                          static_cast<float>(kMainModeOffboard));
         }
     } else if (now == OffboardState::engaged && setpoint.armed != report_.armed) {
-        if (options_.sets_origin && !was_armed_ && !report_.has_origin && sent_origin_s_ < 0.0) {
+        if (awaits_origin(time_s)) {
             return;  // armed, it would be given none
         }
         if (again(sent_command_s_, options_.retry_s, time_s)) {
@@ -193,19 +204,29 @@ void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
     }
 }
 
-/// It is asked first, and given one while it tells none: PX4 v1.16 does without its motion capture
-/// for a second after the first origin, and moves the world by each further one.
+bool Offboard::awaits_origin(double time_s) const {
+    constexpr double kPatience_s = 5.0;  // one that never reports it may have taken it all the same
+    if (!options_.sets_origin || was_armed_ || report_.has_origin) {
+        return false;
+    }
+    return first_origin_s_ < 0.0 || time_s - first_origin_s_ < kPatience_s;
+}
+
+/// Its own is requested first, and it is given one while it reports none and no pose has gone to
+/// it. After poses PX4 v1.16 does without them for a second, and PX4's main since 2026-06-29 keeps
+/// the distance to the origin, thousands of kilometres, as a bias of them.
 void Offboard::give_origin(Link& link, double time_s) {
     constexpr double kAnswer_s = 1.0;
-    constexpr double kPatience_s = 5.0;  // it tells once its estimate is one of the earth
-    if (!options_.sets_origin || was_armed_ || report_.has_origin) {
+    constexpr double kAgain_s = 1.5;  // it takes none before its estimator runs
+    if (!awaits_origin(time_s)) {
         return;
     }
     if (again(asked_origin_s_, kAnswer_s, time_s)) {
         ++origin_requests_;
         send_command(link, MavCmd::request_message, static_cast<float>(GpsGlobalOrigin::kId));
     }
-    if ((no_origin_ || origin_requests_ > 1) && again(sent_origin_s_, kPatience_s, time_s)) {
+    if ((no_origin_ || origin_requests_ > 1) && again(sent_origin_s_, kAgain_s, time_s)) {
+        first_origin_s_ = first_origin_s_ < 0.0 ? time_s : first_origin_s_;
         SetGpsGlobalOrigin origin{.target_system = options_.target_system};
         put(GeographicOrigin{}, origin.latitude, origin.longitude, origin.altitude);
         (void)link.send(origin, kPatience);
@@ -224,7 +245,7 @@ void Offboard::request_rate(Link& link) {
 
 /// For the record: a flight does not wait for it.
 void Offboard::ask_who(Link& link) {
-    constexpr int kTimes = 5;
+    constexpr int kTimes = 40;  // PX4 answers by a clock of its own, while simulated seconds fly by
     if (who_requests_ >= kTimes || (report_.version && report_.airframe)) {
         return;
     }
@@ -257,11 +278,11 @@ void Offboard::speak_up(Link& link, double time_s) {
                         kPatience);
     }
     const OffboardState now = state(time_s);
-    const bool heard = now != OffboardState::silent && now != OffboardState::taken_away;
-    if (heard) {
+    const bool received = now != OffboardState::silent && now != OffboardState::taken_away;
+    if (received) {
         give_origin(link, time_s);
     }
-    if (heard && again(sent_request_s_, 1.0, time_s)) {
+    if (received && again(sent_request_s_, 1.0, time_s)) {
         request_rate(link);
         ask_who(link);
     }
@@ -271,8 +292,8 @@ void Offboard::update(Link& link, const Setpoint& setpoint, double time_s) {
     speak_up(link, time_s);
     const OffboardState now = state(time_s);
     const bool there = now != OffboardState::silent && now != OffboardState::unready;
-    // One that flies us and is heard no more may still hear: without set-points it would hold, and
-    // pry at a cup that holds. Who may not fly on hands back.
+    // One that flies us and has fallen silent may still receive: without set-points it would hold,
+    // and pry at a cup that holds. Who may not fly on hands back.
     if (taken_away() || !(there || was_engaged_)) {
         streaming_s_ = -1.0;
         return;
@@ -300,7 +321,7 @@ std::string Offboard::obstacle(double time_s) const {
             text += fmt::format("; it refused {} ({})", command_name(report_.refused_command),
                                 report_.refused_result);
         }
-        return report_.text.empty() ? text : text + "; it said \"" + report_.text + "\"";
+        return report_.text.empty() ? text : text + "; it reported \"" + report_.text + "\"";
     };
     switch (state(time_s)) {
         case OffboardState::silent: return "no heartbeat of the autopilot";
@@ -312,6 +333,36 @@ std::string Offboard::obstacle(double time_s) const {
         case OffboardState::engaged: return report_.armed ? "" : with_reason("not armed yet");
     }
     throw InternalError("offboard state out of range");
+}
+
+std::optional<std::string> TextJoiner::give_up() {
+    id_ = 0;
+    next_chunk_ = 0;
+    const std::string text = std::exchange(text_, {});
+    return text.empty() ? std::nullopt : std::optional(fit_to_print(text) + "...");
+}
+
+std::optional<std::string> TextJoiner::hear(const StatusText& message) {
+    const std::string_view piece = text_of(message.text);
+    if (message.id == 0) {
+        return fit_to_print(piece);
+    }
+    std::optional<std::string> cut;
+    if (message.id != id_ || message.chunk_seq != next_chunk_) {
+        cut = give_up();
+        if (message.chunk_seq != 0) {
+            return cut;  // its beginning is lost
+        }
+        id_ = message.id;
+    }
+    text_ += piece;
+    ++next_chunk_;
+    if (piece.size() < message.text.size() || next_chunk_ == kMostChunks) {
+        id_ = 0;
+        next_chunk_ = 0;
+        return fit_to_print(std::exchange(text_, {}));
+    }
+    return cut;
 }
 
 }  // namespace limpet::mavlink

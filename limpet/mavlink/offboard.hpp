@@ -12,20 +12,37 @@
 #include "limpet/core/signals/setpoint.hpp"
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/messages.hpp"
-#include "limpet/mavlink/text_joiner.hpp"
 
 namespace limpet::mavlink {
+
+/// Texts of one sender, whole again where they came in chunks, and fit for a terminal: what is not
+/// printable ASCII becomes `?`, blanks at the end go.
+/// Source: common.xml, STATUSTEXT: an id of 0 is a text by itself; else chunks count from 0, and
+/// one that its field's NUL ends is the last.
+class TextJoiner {
+public:
+    /// @return a text that is complete; one whose rest never came when the next begins, with "..."
+    [[nodiscard]] std::optional<std::string> hear(const StatusText& message);
+
+private:
+    /// @return what has come so far of a text in chunks, if any
+    [[nodiscard]] std::optional<std::string> give_up();
+
+    std::string text_;
+    std::uint16_t id_ = 0;
+    int next_chunk_ = 0;
+};
 
 // Who flies. Time is injected: nothing here reads a clock.
 //
 //   silent ── heartbeat ──► unready ── estimate ──► streaming ── mode confirmed ──► engaged
-//     ▲                        ▲                      │ asks for OFFBOARD             │
+//     ▲                        ▲                      │ requests OFFBOARD             │
 //     │                        └──── estimate stale ──┘      the mode was taken away  │
 //     └──────── no heartbeat for silence_limit_s ◄──(any)                             ▼
 //                                                                                 taken_away
 enum class OffboardState {
-    silent,      ///< no autopilot is heard
-    unready,     ///< it is there, but tells no pose or an old one
+    silent,      ///< nothing is received from an autopilot
+    unready,     ///< it is there, but reports no pose or an old one
     streaming,   ///< set-points go; it does not fly them yet
     engaged,     ///< it flies our set-points
     taken_away,  ///< an operator or a fail-safe chose another mode; set-points have stopped
@@ -38,23 +55,22 @@ struct OffboardOptions {
     std::uint8_t target_system = 1;
     double set_point_rate_Hz = 50.0;  ///< PX4 gives up below 1 Hz (COM_OF_LOSS_T)
     double heartbeat_rate_Hz = 1.0;
-    double estimate_rate_Hz = 100.0;  ///< asked of it; 0: as it likes
-    double retry_s = 0.3;             ///< commands are said again until it is so
-    double warm_up_s = 1.0;           ///< set-points go so long before the mode is asked for
+    double estimate_rate_Hz = 100.0;  ///< requested; 0: its own
+    double retry_s = 0.3;             ///< commands are repeated until it is so
+    double warm_up_s = 1.0;           ///< set-points go so long before the mode is requested
     double estimate_limit_s = 0.25;   ///< a pose older than this is stale
     double silence_limit_s = 3.0;     ///< PX4 beats at 1 Hz
-    /// Asks for OFFBOARD itself; else it waits until an operator chooses it.
+    /// Requests OFFBOARD itself; else it waits until an operator chooses it.
     bool asks_for_mode = true;
     /// A heartbeat of a ground station, not of a companion: PX4 sends STATUSTEXT to no one else.
     bool hears_texts = true;
-    /// Gives the local origin a latitude and longitude (altitude 0), before it is armed for the
-    /// first time and unless it tells that it has them: without, PX4's hold and landing fly off to
-    /// (0, 0). Not where it has GPS, whose origin is another. Source: px4.md
-    /// "Motion capture"
+    /// Gives the local origin a latitude and longitude (altitude 0), before the first pose goes to
+    /// it and unless it reports that it has them: without, PX4's hold and landing fly off to (0,
+    /// 0). Not where it has GPS, whose origin is another. Source: px4.md "Motion capture"
     bool sets_origin = true;
 };
 
-/// What the autopilot said last.
+/// What the autopilot reported last.
 struct AutopilotReport {
     bool armed = false;
     bool offboard = false;  ///< its mode is OFFBOARD
@@ -69,11 +85,11 @@ struct AutopilotReport {
     bool has_origin = false;      ///< its local origin has a latitude and longitude
 };
 
-/// The companion's end of offboard control: keeps set-points streaming, asks for mode and arming
-/// until they are so, hears the estimate. The same code flies the simulator's PX4 and a real one.
-/// Set-points keep their meaning on the way: attitude stays attitude (a position set-point would
-/// pry at a cup that holds); disarming is forced, since PX4 denies it off the ground.
-/// Source: px4.md "Offboard" and "Perched"; PX4 v1.15
+/// The companion's end of offboard control: keeps set-points streaming, requests mode and arming
+/// until they are so, receives the estimate. The same code flies the simulator's PX4 and a real
+/// one. Set-points keep their meaning on the way: attitude stays attitude (a position set-point
+/// would pry at a cup that holds); disarming is forced, since PX4 denies it off the ground. Source:
+/// px4.md "Offboard" and "Perched"; PX4 v1.15
 class Offboard {
 public:
     explicit Offboard(const OffboardOptions& options);
@@ -85,7 +101,7 @@ public:
     void update(Link& link, const Setpoint& setpoint, double time_s);
     /// Heartbeat and requests of rates and origin alone, no set-points: as long as it must not fly.
     void attend(Link& link, double time_s);
-    /// Stops the set-points and asks for `hold` (AUTO.LOITER) until the autopilot is no longer in
+    /// Stops the set-points and requests `hold` (AUTO.LOITER) until the autopilot is no longer in
     /// OFFBOARD: whatever mode is chosen from then on is an operator's. For good; update() then
     /// keeps the heartbeat alone.
     void hand_back(Link& link, double time_s);
@@ -95,7 +111,12 @@ public:
     /// estimate_limit_s.
     [[nodiscard]] Estimate estimate(double time_s) const;
     [[nodiscard]] const AutopilotReport& report() const { return report_; }
-    /// Why it does not fly yet or no longer, for people; empty while engaged and armed as asked.
+    /// Whether poses of a tracker must not go to it yet: an origin that comes after them moves the
+    /// position that they gave. Until it reports its origin, or a few seconds after it was given
+    /// one; never again once it was false.
+    [[nodiscard]] bool awaits_origin(double time_s) const;
+    /// Why it does not fly yet or no longer, for people; empty while engaged and armed as
+    /// requested.
     [[nodiscard]] std::string obstacle(double time_s) const;
 
 private:
@@ -118,8 +139,8 @@ private:
     AutopilotReport report_;
     TextJoiner texts_;
     Estimate estimate_;
-    double estimate_s_ = -1.0;   ///< < 0: never told
-    double heartbeat_s_ = -1.0;  ///< < 0: never heard
+    double estimate_s_ = -1.0;   ///< < 0: never reported
+    double heartbeat_s_ = -1.0;  ///< < 0: never received
     double streaming_s_ = -1.0;  ///< since when set-points go without a break
     double disarmed_s_ = -1.0;   ///< since then; < 0: it is armed
     bool was_armed_ = false;
@@ -132,8 +153,9 @@ private:
     double sent_request_s_ = -1e9;  ///< of rates
     double asked_origin_s_ = -1e9;
     double sent_origin_s_ = -1e9;
+    double first_origin_s_ = -1.0;  ///< < 0: none was sent
     int origin_requests_ = 0;
-    bool no_origin_ = false;  ///< it said so
+    bool no_origin_ = false;  ///< as it reported
     int rate_requests_ = 0;
     int who_requests_ = 0;
     bool asked_armed_ = false;  ///< by the last command to arm or disarm

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "limpet/mavlink/codec.hpp"
 
@@ -49,13 +51,13 @@ struct SigningStamps {
         std::uint8_t system = 0;
         std::uint8_t component = 0;
         std::uint8_t link_id = 0;
-        bool restored = false;        ///< nothing was heard of it since
+        bool restored = false;        ///< nothing was received from it since
         std::uint64_t timestamp = 0;  ///< of its last frame [10 us]
     };
     std::uint64_t timestamp = 0;  ///< the last time used or seen [10 us]
     std::array<Heard, kMaxSenders> heard = {};
     std::size_t senders = 0;  ///< so many of `heard`
-    bool are_last = true;     ///< nothing was used or heard after them
+    bool are_last = true;     ///< nothing was used or received after them
 };
 
 /// One end of a signed link. Time is given by the caller.
@@ -94,13 +96,38 @@ private:
     [[nodiscard]] Digest digest(ByteView up_to_timestamp);
     /// The last one of a signed frame's sender on its link, or null.
     [[nodiscard]] Heard* heard(const Frame& frame);
-    /// Room for one more sender, or null. One of before may give way when its frames would be
+    /// Space for one more sender, or null. One of before may give way when its frames would be
     /// too old for a new sender: none of them can be played again.
-    [[nodiscard]] Heard* room(std::uint64_t now);
+    [[nodiscard]] Heard* free_place(std::uint64_t now);
 
     SigningKey key_;
     std::uint8_t link_id_;
     SigningStamps stamps_;
 };
+
+/// What a peer speaks that is there and seems silent.
+inline constexpr std::string_view kVersion1 =
+    "MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak MAVLink 2";
+
+/// What a link has refused, and why: a signed one by signatures, each what is MAVLink 1.
+struct Refusals {
+    std::array<std::uint64_t, 6> by_verdict = {};  ///< frames; of accepted none
+    std::uint64_t version_1 = 0;                   ///< frames of MAVLink 1, which is not read
+    std::uint64_t most_behind = 0;  ///< the oldest that was too old, behind our time [10 us]
+    std::uint64_t most_ahead = 0;   ///< of what was accepted, ahead of our clock [10 us]
+
+    [[nodiscard]] std::uint64_t total() const;
+    /// @param time  ours: the later one of the clock and of what was seen or used before [10 us]
+    /// @param now   our clock [10 us]
+    void count(Verdict verdict, const Frame& frame, std::uint64_t time, std::uint64_t now);
+};
+
+/// Why, for people, without numbers that change with every frame: "not signed; played again, or its
+/// clock was set back". Empty: nothing was refused.
+[[nodiscard]] std::string reasons_of(const Refusals& refusals);
+
+/// All of it: "12 frames refused: 10 not signed, 2 too old (by up to 3712 s)". A clock that is over
+/// a minute ahead is stated too. Empty: neither.
+[[nodiscard]] std::string text_of(const Refusals& refusals);
 
 }  // namespace limpet::mavlink

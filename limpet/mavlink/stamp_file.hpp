@@ -18,11 +18,11 @@ namespace limpet::mavlink {
 ///   1 1 0 37699999999000         system, component, link id, timestamp of a sender's last frame
 ///   ended                        nothing came after these; missing: a session runs, or was killed
 ///
-/// A thread of its own writes what changed every kEvery and at the end: beside its place, then
+/// A thread of its own writes what changed every kEvery and at the end: next to its place, then
 /// renamed.
 class StampFile {
 public:
-    /// What is used and heard within it is lost when the process is killed or the power cut.
+    /// What is used and received within it is lost when the process is killed or the power cut.
     static constexpr std::chrono::seconds kEvery{10};
 
     /// Reads it, if it is there, and writes it anew, to know that it can be.

@@ -26,7 +26,7 @@ inline constexpr std::uint8_t kSubModeLoiter = 3;
     return static_cast<std::uint8_t>(custom_mode >> 16U);
 }
 
-inline constexpr float kForce = 21196.0F;  ///< second parameter of arming: without asking
+inline constexpr float kForce = 21196.0F;  ///< second parameter of arming: without checks
 
 /// Where on earth the origin of W is: PX4's home in simulation, near Zurich. A flight on motion
 /// capture has no place; the wire wants one.
@@ -68,7 +68,7 @@ void take(const HilSensor& message, double time_s, Readings& readings);
 /// Of kMaxRotors motors, as the wire has no number. What is not finite counts as 0; motors are held
 /// to 0..1.
 [[nodiscard]] RotorCommand rotor_command(const HilActuatorControls& controls);
-/// Motors that are not armed are told 0, as PX4 does. Says "lockstep" (flags 1).
+/// Motors that are not armed get 0, as PX4 does. Says "lockstep" (flags 1).
 [[nodiscard]] HilActuatorControls hil_actuator_controls(const RotorCommand& command,
                                                         std::uint64_t time_usec);
 
@@ -116,7 +116,7 @@ inline constexpr std::uint8_t kAttitudeThrust = AttitudeTargetTypemask::body_rol
                                                         std::uint32_t time_boot_ms);
 [[nodiscard]] SetAttitudeTarget attitude_target(const AttitudeSetpoint& target,
                                                 std::uint32_t time_boot_ms);
-/// The other way, as the stand-in flight controller hears it.
+/// The other way, as the stand-in flight controller receives it.
 /// @return nothing for masks and frames that Limpet does not fly, or numbers that are not finite
 [[nodiscard]] std::optional<PositionSetpoint> position_set_point(
     const SetPositionTargetLocalNed& message);

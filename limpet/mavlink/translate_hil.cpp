@@ -5,14 +5,14 @@
 #include "limpet/mavlink/numbers.hpp"
 #include "limpet/mavlink/translate.hpp"
 
-// What the simulator and the autopilot in its loop tell each other.
+// What the simulator and the autopilot in its loop send each other.
 
 namespace limpet::mavlink {
 namespace {
 
 constexpr double kEarthRadius_m = 6371000.0;  ///< of PX4's map projection. Source: lib/geo
 constexpr double kPascalsPerHectopascal = 100.0;
-/// Nobody measures it. Source: assumed, a room
+/// It is not measured. Source: assumed, indoors
 constexpr float kTemperature_degC = 25.0F;
 constexpr std::uint8_t kFix3D = GpsFixType::type_3d_fix;
 /// A good receiver's; PX4 refuses fewer than 6 satellites, 3 m and 5 m (EKF2_REQ_NSATS, _EPH,

@@ -34,13 +34,13 @@ public:
     Lz4(const Lz4&) = delete;
     Lz4& operator=(const Lz4&) = delete;
 
-    /// Goes on for as long as there is something to read and room for it.
+    /// Goes on for as long as there is something to read and space for it.
     /// @return bytes written
-    std::size_t unpack(std::string_view packed, Progress& progress, char* out, std::size_t room) {
+    std::size_t unpack(std::string_view packed, Progress& progress, char* out, std::size_t space) {
         std::size_t written = 0;
         while (true) {
             std::size_t took = packed.size() - progress.at;
-            std::size_t gave = room - written;
+            std::size_t gave = space - written;
             const std::size_t hint = LZ4F_decompress(context_, out + written, &gave,
                                                      packed.data() + progress.at, &took, nullptr);
             if (LZ4F_isError(hint) != 0) {
@@ -51,7 +51,7 @@ public:
             progress.at += took;
             written += gave;
             progress.whole = hint == 0;
-            if ((took == 0 && gave == 0) || progress.at == packed.size() || written == room) {
+            if ((took == 0 && gave == 0) || progress.at == packed.size() || written == space) {
                 return written;
             }
         }
@@ -76,9 +76,9 @@ public:
     [[nodiscard]] ZSTD_DCtx* get() const { return context_; }
 
     /// As Lz4::unpack.
-    std::size_t unpack(std::string_view packed, Progress& progress, char* out, std::size_t room) {
+    std::size_t unpack(std::string_view packed, Progress& progress, char* out, std::size_t space) {
         ZSTD_inBuffer in{packed.data(), packed.size(), progress.at};
-        ZSTD_outBuffer to{out, room, 0};
+        ZSTD_outBuffer to{out, space, 0};
         while (true) {
             const std::size_t before = in.pos + to.pos;
             const std::size_t hint = ZSTD_decompressStream(context_, &to, &in);
@@ -107,9 +107,10 @@ std::string unpacked_by(std::string_view file, std::uint64_t most_bytes) {
     Progress progress;
     for (std::size_t gave = 1; gave > 0 && !progress.broken && out.size() <= most_bytes;) {
         const std::size_t before = out.size();
-        const auto room = static_cast<std::size_t>(std::min(kPiece_bytes, most_bytes + 1 - before));
-        out.resize(before + room);
-        gave = format.unpack(file, progress, out.data() + before, room);
+        const auto space =
+            static_cast<std::size_t>(std::min(kPiece_bytes, most_bytes + 1 - before));
+        out.resize(before + space);
+        gave = format.unpack(file, progress, out.data() + before, space);
         out.resize(before + gave);
     }
     return out;
@@ -145,7 +146,7 @@ void Unpacker::unpack(std::string_view compression, ByteView stored, Bytes& out)
     const std::size_t size =
         lz4.unpack(Cursor::text(stored), progress, reinterpret_cast<char*>(out.data()), out.size());
     std::size_t more = 0;
-    if (!progress.whole && !progress.broken) {  // with the room full, its end is not read yet
+    if (!progress.whole && !progress.broken) {  // with the buffer full, its end is not read yet
         char beyond = 0;
         more = lz4.unpack(Cursor::text(stored), progress, &beyond, 1);
     }

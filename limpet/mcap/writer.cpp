@@ -19,7 +19,7 @@ constexpr std::string_view kProfile = "ros2";
 constexpr std::string_view kLibrary = "limpet";
 constexpr const char* kNowhere = "/dev/null";
 constexpr std::size_t kIndexReserve_bytes = 1 << 20;
-/// Room behind a full chunk for the message that fills it, and for a chunk's message indexes.
+/// Space behind a full chunk for the message that fills it, and for a chunk's message indexes.
 constexpr std::size_t kSlack_bytes = 64 * 1024;
 
 }  // namespace

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/dae_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <pugixml.hpp>
-#include <unordered_map>
+#include <numeric>
 
-#include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
-#include "limpet/core/user_text.hpp"
-#include "limpet/core/words.hpp"
-#include "limpet/core/xml_marks.hpp"
+#include "limpet/meshes/dae_text.hpp"
+#include "limpet/meshes/readers.hpp"
 
 namespace limpet::meshes {
 
@@ -22,28 +18,6 @@ constexpr int kDeepestNode = 100;
 constexpr int kMostNodes = 20000;  // that are placed
 constexpr std::size_t kMostNumbers = 3 * kMostPoints;
 constexpr std::size_t kMostOffset = 31;  // of an input
-constexpr std::size_t kMostScanned = 500'000'000;
-constexpr std::size_t kMostMarks = 4'000'000;  // as in a <p> for each of a million polygons
-
-using DaeNumbers = std::vector<double>;
-
-/// The attributes that ids are looked up by.
-class DaeIds : public pugi::xml_tree_walker {
-public:
-    bool for_each(pugi::xml_node& node) override {
-        if (const auto id = node.attribute("id")) {
-            nodes_.emplace(id.value(), node);
-        }
-        return true;
-    }
-    [[nodiscard]] pugi::xml_node find(const std::string& id) const {
-        const auto found = nodes_.find(id);
-        return found == nodes_.end() ? pugi::xml_node() : found->second;
-    }
-
-private:
-    std::unordered_map<std::string, pugi::xml_node> nodes_;
-};
 
 /// Corners of faces, as one of the elements of a <mesh> has them.
 struct DaeFaces {
@@ -54,27 +28,12 @@ struct DaeFaces {
     bool mirrored = false;
 };
 
-class DaeFile {
+class DaeFile : DaeText {
 public:
-    DaeFile(std::string name, std::string text)
-        : text_(std::move(text)),
-          mesh_(std::move(name), "DAE", [this](std::size_t offset) { return line_of(offset); }) {}
+    using DaeText::DaeText;
 
     Mesh read() {
-        if (xml_marks(text_) > kMostMarks) {
-            mesh_.fail(fmt::format("more than {} elements and attributes", kMostMarks));
-        }
-        pugi::xml_document document;
-        const auto parsed = document.load_buffer(text_.data(), text_.size());
-        if (!parsed) {
-            mesh_.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 1)));
-            mesh_.fail(parsed.description());
-        }
-        const auto root = document.child("COLLADA");
-        if (!root) {
-            mesh_.fail("no DAE: there is no <COLLADA>");
-        }
-        document.traverse(ids_);
+        const auto root = open();
         auto scene = root.child("scene").child("instance_visual_scene");
         const auto placed = scene ? target(scene, "url", "visual_scene")
                                   : root.child("library_visual_scenes").child("visual_scene");
@@ -89,88 +48,18 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t line_of(std::size_t offset) const {
-        const auto end =
-            text_.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text_.size()));
-        return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
-    }
-    /// What comes next stands in this element.
-    void at(pugi::xml_node node) {
-        mesh_.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 1)));
-    }
-    [[noreturn]] void fail(pugi::xml_node node, const std::string& what) {
-        at(node);
-        mesh_.fail(what);
-    }
-
-    /// The element that an attribute names: "#ID".
-    pugi::xml_node target(pugi::xml_node node, const char* key, const char* wanted) {
-        const std::string url = node.attribute(key).value();
-        const auto found = url.rfind('#', 0) == 0 ? ids_.find(url.substr(1)) : pugi::xml_node();
-        if (!found || std::string_view(found.name()) != wanted) {
-            fail(node, fmt::format("<{}> {}={}: must be the # and id of a <{}> of this file",
-                                   node.name(), key, in_quotes(url), wanted));
-        }
-        return found;
-    }
-    /// What stands in an element. A geometry that is placed often is read as often.
-    Words words_of(pugi::xml_node node) {
-        const std::string_view text = node.child_value();
-        scanned_ += text.size();
-        if (scanned_ > kMostScanned) {
-            fail(node, fmt::format("<{}> is placed so often that more than {} MB would be read",
-                                   node.name(), kMostScanned / 1'000'000));
-        }
-        return Words(text);
-    }
-    DaeNumbers numbers(pugi::xml_node node, std::size_t most) {
-        DaeNumbers values;
-        Words words = words_of(node);
-        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-            const auto value = number_of(word);
-            if (!value) {
-                fail(node, fmt::format("<{}> {}: must be numbers", node.name(), in_quotes(word)));
-            }
-            if (values.size() == most) {
-                fail(node, fmt::format("<{}>: more than {} numbers", node.name(), most));
-            }
-            values.push_back(*value);
-        }
-        return values;
-    }
-    DaeNumbers numbers_of(pugi::xml_node node, std::size_t count) {
-        DaeNumbers values = numbers(node, count);
-        if (values.size() != count) {
-            fail(node, fmt::format("<{}>: must be {} numbers", node.name(), count));
-        }
-        return values;
-    }
-    std::size_t whole(pugi::xml_node node, const char* key, std::size_t otherwise,
-                      std::size_t most) {
-        const auto attribute = node.attribute(key);
-        if (!attribute) {
-            return otherwise;
-        }
-        const auto value = integer_of(attribute.value());
-        if (!value || *value < 0 || static_cast<std::size_t>(*value) > most) {
-            fail(node, fmt::format("<{}> {}={}: must be from 0 to {}", node.name(), key,
-                                   in_quotes(attribute.value()), most));
-        }
-        return static_cast<std::size_t>(*value);
-    }
-
     /// To metres, z up, x to the right: Y up is COLLADA's own way where a file says nothing.
     Eigen::Affine3d axes_of(pugi::xml_node asset) {
         double metre = 1.0;
         if (const auto unit = asset.child("unit").attribute("meter")) {
-            metre = number_of(unit.value()).value_or(0.0);
+            metre = number_of(Words(unit.value()).next()).value_or(0.0);
             if (!(metre > 0.0 && metre <= 1e6)) {
                 fail(asset.child("unit"),
                      fmt::format("<unit> meter={}: must be a number of metres from 0 to 1e6",
                                  in_quotes(unit.value())));
             }
         }
-        const std::string up = asset.child("up_axis").text().get();
+        const std::string up(Words(asset.child("up_axis").text().get()).next());
         Matrix3 turn = Matrix3::Identity();
         if (up.empty() || up == "Y_UP") {
             turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -191,12 +80,9 @@ private:
         for (const auto step : node.children()) {
             const std::string_view kind = step.name();
             if (kind == "matrix") {
-                const DaeNumbers m = numbers_of(step, 16);
-                Eigen::Matrix4d all;
-                std::copy(m.begin(), m.end(), all.data());
-                all.transposeInPlace();  // it is written by rows
-                Eigen::Affine3d affine = Eigen::Affine3d::Identity();
-                affine.matrix().topRows<3>() = all.topRows<3>();
+                using ByRows = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+                Eigen::Affine3d affine(Eigen::Map<const ByRows>(numbers_of(step, 16).data()));
+                affine.makeAffine();
                 pose = pose * affine;
             } else if (kind == "translate") {
                 const DaeNumbers p = numbers_of(step, 3);
@@ -217,13 +103,16 @@ private:
         return pose;
     }
 
+    void count_placed(pugi::xml_node node) {
+        if (++placed_ > kMostNodes) {
+            fail(node, fmt::format("more than {} geometries and nodes are placed", kMostNodes));
+        }
+    }
     void place(pugi::xml_node node, Eigen::Affine3d pose, pugi::xml_node unread, int depth) {
         if (depth > kDeepestNode) {
             fail(node, fmt::format("nodes deeper than {}, or in a ring", kDeepestNode));
         }
-        if (++placed_ > kMostNodes) {
-            fail(node, fmt::format("more than {} nodes are placed", kMostNodes));
-        }
+        count_placed(node);
         pose = pose * pose_of(node, unread);
         for (const auto child : node.children()) {
             const std::string_view kind = child.name();
@@ -239,9 +128,7 @@ private:
                                              "rotate or scale",
                                              unread.name()));
                 }
-                if (++placed_ > kMostNodes) {
-                    fail(node, fmt::format("more than {} geometries are placed", kMostNodes));
-                }
+                count_placed(node);
                 add_geometry(target(child, "url", "geometry"), pose);
             }
         }
@@ -275,7 +162,7 @@ private:
             fail(accessor, fmt::format("<accessor> stride=\"{}\": must be at least 3", stride));
         }
         if (count > 0 && offset + (count - 1) * stride + 3 > values.size()) {
-            fail(accessor, fmt::format("<accessor>: asks for more than the {} numbers of its array",
+            fail(accessor, fmt::format("<accessor>: needs more than the {} numbers of its array",
                                        values.size()));
         }
         at(source);
@@ -288,25 +175,27 @@ private:
     /// Whole corners of a list of indices, each by its point.
     std::vector<long> corners(pugi::xml_node list, const DaeFaces& faces) {
         std::vector<long> points;
-        Words words = words_of(list);
-        std::size_t at = 0;
-        for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++at) {
+        std::string joined;
+        Words words = words_of(list, joined);
+        std::size_t count = 0;
+        for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
             const auto index = integer_of(word);
             if (!index || *index < 0 || *index > static_cast<long>(kMostPoints)) {
                 fail(list, fmt::format("<{}> {}: must be whole numbers from 0", list.name(),
                                        in_quotes(word)));
             }
-            if (at % faces.stride == faces.offset) {
+            if (count % faces.stride == faces.offset) {
                 if (points.size() > 3 * kMostTriangles) {
                     fail(list, fmt::format("more than {} triangles", kMostTriangles));
                 }
                 points.push_back(faces.first + *index);
             }
         }
-        if (at % faces.stride != 0) {
+        if (count % faces.stride != 0) {
             fail(list, fmt::format("<{}>: {} numbers are no multiple of the {} of a corner",
-                                   list.name(), at, faces.stride));
+                                   list.name(), count, faces.stride));
         }
+        at(list);
         return points;
     }
 
@@ -318,47 +207,42 @@ private:
         mesh_.polygon(corners_);
     }
 
-    /// Polygons of one <p>, each of as many corners as `sizes` says.
+    /// Polygons of one <p>, each of as many corners as `size_of` says of it.
+    /// @return how many they are
     template <class Size>
-    void add_polygons(const DaeFaces& faces, pugi::xml_node list, const Size& size_of) {
+    std::size_t add_polygons(const DaeFaces& faces, pugi::xml_node list, const Size& size_of) {
         const std::vector<long> all = corners(list, faces);
-        at(list);
-        std::size_t from = 0;
-        for (std::size_t i = 0; from < all.size(); ++i) {
-            const std::size_t count = size_of(i);
+        std::size_t polygons = 0;
+        for (std::size_t from = 0; from < all.size();) {
+            const std::size_t count = size_of(polygons++);
             if (count == 0 || count > all.size() - from) {
                 fail(list, "<p>: its corners do not fill its last polygon");
             }
             polygon(faces, std::span(all).subspan(from, count));
             from += count;
         }
+        return polygons;
     }
     void add_polylist(const DaeFaces& faces) {
         const auto sizes_node = faces.element.child("vcount");
         const DaeNumbers sizes = numbers(sizes_node, kMostTriangles);
-        double corners = 0.0;
         for (const double size : sizes) {
             if (!(size >= 3.0 && size <= static_cast<double>(kMostPoints)) ||
-                size != static_cast<double>(static_cast<long>(size))) {
+                size != std::floor(size)) {
                 fail(sizes_node, fmt::format("<vcount> {:.6g}: must be at least 3", size));
             }
-            corners += size;
         }
-        std::size_t used = 0;
-        if (const auto list = faces.element.child("p")) {
-            add_polygons(faces, list, [&](std::size_t i) {
-                used = i + 1;
-                return i < sizes.size() ? static_cast<std::size_t>(sizes[i]) : 0;
-            });
-        }
-        if (used != sizes.size()) {
-            fail(sizes_node,
-                 fmt::format("<vcount>: asks for {:.0f} corners, <p> has fewer", corners));
+        const auto list = faces.element.child("p");
+        const auto size_of = [&](std::size_t i) {
+            return i < sizes.size() ? static_cast<std::size_t>(sizes[i]) : 0;
+        };
+        if ((list ? add_polygons(faces, list, size_of) : 0) != sizes.size()) {
+            fail(sizes_node, fmt::format("<vcount>: needs {:.0f} corners, <p> has fewer",
+                                         std::accumulate(sizes.begin(), sizes.end(), 0.0)));
         }
     }
     void add_strip(const DaeFaces& faces, pugi::xml_node list) {
         const std::vector<long> all = corners(list, faces);
-        at(list);
         for (std::size_t i = 2; i < all.size(); ++i) {  // every other one runs the other way
             polygon(faces, i % 2 == 0 ? std::array{all[i - 2], all[i - 1], all[i]}
                                       : std::array{all[i - 1], all[i - 2], all[i]});
@@ -392,9 +276,7 @@ private:
             } else if (kind == "tristrips") {
                 add_strip(faces, list);
             } else {  // polygons and trifans: a fan about the first corner
-                const std::vector<long> all = corners(list, faces);
-                at(list);
-                polygon(faces, all);
+                polygon(faces, corners(list, faces));
             }
         }
     }
@@ -424,12 +306,8 @@ private:
         }
     }
 
-    std::string text_;
-    MeshBuilder mesh_;
-    DaeIds ids_;
     std::map<std::size_t, DaeNumbers> arrays_;
-    std::size_t read_ = 0;     ///< numbers of arrays
-    std::size_t scanned_ = 0;  ///< bytes
+    std::size_t read_ = 0;  ///< numbers of arrays
     int placed_ = 0;
     std::vector<long> corners_;
 };

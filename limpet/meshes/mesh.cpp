@@ -7,10 +7,7 @@
 #include <cctype>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/meshes/dae_reader.hpp"
-#include "limpet/meshes/obj_reader.hpp"
-#include "limpet/meshes/ply_reader.hpp"
-#include "limpet/meshes/stl_reader.hpp"
+#include "limpet/meshes/readers.hpp"
 
 namespace limpet::meshes {
 

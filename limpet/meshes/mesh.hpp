@@ -26,7 +26,7 @@ inline constexpr std::size_t kMostMesh_MB = 100;
 /// What the readers of meshes have in common: bounds, indices that are there, polygons.
 class MeshBuilder {
 public:
-    /// Where something stands becomes a line when it is told: counting lines takes time.
+    /// A place becomes a line when it is reported: counting lines takes time.
     using LineOf = std::function<std::size_t(std::size_t place)>;
 
     /// @param name  of the file, as in messages @param kind  "OBJ"

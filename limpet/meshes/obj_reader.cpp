@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/obj_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/core/words.hpp"
+#include "limpet/meshes/readers.hpp"
 
 namespace limpet::meshes {
 
@@ -49,6 +48,9 @@ void read_face(Words& words, MeshBuilder& mesh, std::vector<long>& corners) {
          word = words.on_line()) {
         const auto index = integer_of(word.substr(0, word.find('/')));
         const auto count = static_cast<long>(mesh.points());
+        if (count == 0) {
+            mesh.fail("f: a face must stand after its points");
+        }
         if (!index || *index == 0 || *index > count || *index < -count) {
             mesh.fail(fmt::format("f: {}: must be a point from 1 to {}, or from -{} to -1",
                                   in_quotes(word), count, count));

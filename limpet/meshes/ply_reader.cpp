@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/ply_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/core/words.hpp"
+#include "limpet/meshes/readers.hpp"
 
 namespace limpet::meshes {
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/stl_reader.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <sstream>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
+#include "limpet/core/words.hpp"
+#include "limpet/meshes/readers.hpp"
 
 namespace limpet::meshes {
 
@@ -18,45 +19,30 @@ namespace {
 constexpr std::size_t kHeader = 84;  // 80 bytes of anything, then the number of triangles
 constexpr std::size_t kFacet = 50;   // normal, three points, two bytes
 
-/// Gathers points, each once.
-class Joiner {
+/// Joins points that are the same.
+class Joiner : public MeshBuilder {
 public:
-    explicit Joiner(std::string name) : name_(std::move(name)) {}
+    explicit Joiner(const std::string& name) : MeshBuilder(name, "STL") {}
 
     void triangle(const std::array<Vector3, 3>& corners) {
-        std::array<int, 3> triangle{};
+        std::array<long, 3> indices{};
         for (std::size_t i = 0; i < 3; ++i) {
-            if (!corners[i].allFinite()) {
-                throw InputError(fmt::format("{}: triangle {}: a corner is not a finite number",
-                                             name_, mesh_.triangles.size() + 1));
+            const Vector3& p = corners[i];
+            if (!p.allFinite()) {
+                fail(fmt::format("triangle {}: a corner is not a finite number", triangles() + 1));
             }
-            triangle[i] = index(corners[i]);
+            const auto [at, added] =
+                seen_.try_emplace({p.x(), p.y(), p.z()}, static_cast<long>(points()));
+            if (added) {
+                point(p);
+            }
+            indices[i] = at->second;
         }
-        mesh_.triangles.push_back(triangle);
-        if (mesh_.triangles.size() > kMostTriangles) {
-            throw InputError(fmt::format("{}: more than {} triangles", name_, kMostTriangles));
-        }
-    }
-    [[nodiscard]] Mesh take() {
-        if (mesh_.triangles.empty()) {
-            throw InputError(name_ + ": an STL without a triangle");
-        }
-        return std::move(mesh_);
+        polygon(indices);
     }
 
 private:
-    int index(const Vector3& p) {
-        const auto [at, added] =
-            seen_.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(mesh_.points.size()));
-        if (added) {
-            mesh_.points.push_back(p);
-        }
-        return at->second;
-    }
-
-    std::string name_;
-    Mesh mesh_;
-    std::map<std::array<double, 3>, int> seen_;
+    std::map<std::array<double, 3>, long> seen_;
 };
 
 std::uint32_t word(const std::string& bytes, std::size_t at) {
@@ -80,33 +66,34 @@ Mesh read_binary(const std::string& name, const std::string& bytes) {
     return joiner.take();
 }
 
+/// Some programs write all of it in capitals.
+std::string small(std::string_view word) {
+    std::string text(word.substr(0, 16));
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
 Mesh read_ascii(const std::string& name, const std::string& bytes) {
     Joiner joiner(name);
-    std::istringstream in(bytes);
+    Words words(bytes);
     std::array<Vector3, 3> corners;
     std::size_t found = 0;
     bool whole = false;
-    int line = 0;
-    for (std::string text; std::getline(in, text);) {
-        ++line;
-        std::istringstream words(text);
-        std::string first;
-        words >> first;
+    while (words.next_line()) {
+        joiner.at(words.line());
+        const std::string first = small(words.on_line());
         if (first == "vertex") {
-            double x = 0.0;
-            double y = 0.0;
-            double z = 0.0;
-            if (found > 2 || !(words >> x >> y >> z)) {
-                throw InputError(
-                    fmt::format("{}:{}: must be one of three corners, as in "
-                                "`vertex 0.1 0 0.2`",
-                                name, line));
+            const auto x = number_of(words.on_line());
+            const auto y = number_of(words.on_line());
+            const auto z = number_of(words.on_line());
+            if (found > 2 || !x || !y || !z) {
+                joiner.fail("must be one of three corners, as in `vertex 0.1 0 0.2`");
             }
-            corners[found++] = {x, y, z};
+            corners[found++] = {*x, *y, *z};
         } else if (first == "endfacet") {
             if (found != 3) {
-                throw InputError(
-                    fmt::format("{}:{}: a facet of {} corners, must have 3", name, line, found));
+                joiner.fail(fmt::format("a facet of {} corners, must have 3", found));
             }
             joiner.triangle(corners);
             found = 0;
@@ -114,7 +101,8 @@ Mesh read_ascii(const std::string& name, const std::string& bytes) {
         whole = first == "endsolid" || (whole && first.empty());
     }
     if (!whole) {
-        throw InputError(fmt::format("{}:{}: the file ends without `endsolid`", name, line));
+        joiner.at(words.line());
+        joiner.fail("the file ends without `endsolid`");
     }
     return joiner.take();
 }
@@ -131,12 +119,12 @@ Mesh read_stl(const std::filesystem::path& file) {
     if (bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * word(bytes, kHeader - 4)) {
         return read_binary(name, bytes);
     }
-    if (bytes.rfind("solid", 0) == 0) {
+    if (small(Words(bytes).next()).rfind("solid", 0) == 0) {
         return read_ascii(name, bytes);
     }
     throw InputError(name +
-                     ": no STL: neither begins with \"solid\" nor is as long as its number "
-                     "of triangles asks");
+                     ": no STL: neither begins with \"solid\" nor has the length that its number "
+                     "of triangles needs");
 }
 
 std::string stl_of(const Mesh& mesh) {

@@ -24,7 +24,7 @@ constexpr sdf::ContactSurface kRigid{
     .friction = 100.0, .stiffness_N_m = 1e12, .damping_N_s_m = 1.0};
 
 /// North-west-up, in which models are written, as Gazebo's world has it: as ROS's map does (REP
-/// 103), so that what gazebo_ros tells is there too.
+/// 103), so that the messages of gazebo_ros are there too.
 Vector3 enu(const Vector3& nwu) {
     return {-nwu.y(), nwu.x(), nwu.z()};
 }

@@ -19,7 +19,7 @@ struct GazeboSensors {
     int force_rate_Hz = 250;  ///< force and torque in the slider, contacts of the legs
 };
 
-/// What the vehicle's plugin is told.
+/// The arguments of the vehicle's plugin.
 struct WorldFlight {
     std::string scenario;           ///< a name, or a file's path
     std::vector<std::string> sets;  ///< KEY=VALUE each, as of `limpet fly --set`
@@ -63,8 +63,8 @@ struct GazeboWorld {
     bool textures = false;
 };
 
-/// A file that stands beside a world with textures: gzserver finds it when the world's folder is on
-/// GAZEBO_RESOURCE_PATH, and shows the walls white without.
+/// A file that stands next to a world with textures: gzserver finds it when the world's folder is
+/// on GAZEBO_RESOURCE_PATH, and shows the walls white without.
 struct WorldFile {
     std::string path;  ///< relative to the world's folder
     std::string bytes;

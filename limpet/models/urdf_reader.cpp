@@ -14,6 +14,7 @@
 #include "limpet/core/file_kind.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/models/mesh_address.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
 namespace limpet::models {
@@ -87,11 +88,13 @@ private:
     /// A URDF before xacro has put in its macros lacks what they stand for.
     void refuse_xacro(const pugi::xml_document& document) const {
         const auto refuse = [&](pugi::xml_node node, const std::string& what) {
+            const std::string stem = file_.stem().stem().string();
+            const bool same = file_.filename() == stem + ".urdf";  // a shell would empty it
             fail(node,
                  fmt::format("{}: this is xacro, not a URDF yet: name the output of `xacro {} "
                              "> {}`",
                              what, for_shell(robot_.file),
-                             for_shell(file_.stem().stem().string() + ".urdf")));
+                             for_shell(stem + (same ? "_expanded.urdf" : ".urdf"))));
         };
         const auto found = document.find_node([](pugi::xml_node node) {
             const auto attributes = node.attributes();
@@ -107,8 +110,22 @@ private:
                                       in_quotes(attribute.value())));
         }
     }
+    /// By its prefix, xacro or another one that stands for its namespace; or, as xacro was written
+    /// before it had one, right below <robot>.
     static bool is_macro(pugi::xml_node node) {
-        return std::string_view(node.name()).substr(0, 6) == "xacro:";
+        const std::string_view name = node.name();
+        const std::size_t colon = name.find(':');
+        if (colon == name.npos) {
+            return (name == "macro" || name == "property" || name == "include") &&
+                   std::string_view(node.parent().name()) == "robot";
+        }
+        const std::string prefix(name.substr(0, colon));
+        const std::string declared = "xmlns:" + prefix;
+        std::string_view space;
+        for (pugi::xml_node above = node; above && space.empty(); above = above.parent()) {
+            space = above.attribute(declared.c_str()).value();
+        }
+        return prefix == "xacro" || space.ends_with("/xacro");
     }
     /// ${mass}, $(find package)
     static bool is_expression(pugi::xml_attribute attribute) {
@@ -128,6 +145,13 @@ private:
                                    node.attribute(key).value(), count, count > 1 ? "s" : ""));
         }
         return values;
+    }
+    [[nodiscard]] pugi::xml_node needed(pugi::xml_node parent, const char* name) const {
+        const auto node = parent.child(name);
+        if (!node) {
+            fail(parent, fmt::format("{}: must have a <{}>", parent.name(), name));
+        }
+        return node;
     }
     [[nodiscard]] double number(pugi::xml_node node, const char* key) const {
         return numbers(node, key, 1)[0];
@@ -175,8 +199,8 @@ private:
     void read_inertial(pugi::xml_node inertial, UrdfLink& link) const {
         Quaternion q;
         read_origin(inertial, link.centre_m, q);
-        link.mass_kg = number(inertial.child("mass"), "value");
-        const auto node = inertial.child("inertia");
+        link.mass_kg = number(needed(inertial, "mass"), "value");
+        const auto node = needed(inertial, "inertia");
         const auto at = [&](const char* key) { return number(node, key); };
         // All before the first is put in: an initializer that is left half way aborts.
         const double xx = at("ixx"), yy = at("iyy"), zz = at("izz");
@@ -195,49 +219,9 @@ private:
         }
     }
 
-    /// The folder above the file that a package is: by its name, or by the one in its package.xml.
-    [[nodiscard]] static bool is_package(const fs::path& folder, const std::string& name) {
-        if (folder.filename() == name) {
-            return true;
-        }
-        const fs::path manifest = folder / "package.xml";
-        if (!is_file(manifest)) {
-            return false;
-        }
-        pugi::xml_document document;
-        const std::string text = read_file(manifest, {"package.xml", 1});
-        return document.load_buffer(text.data(), text.size()) &&
-               document.child("package").child("name").text().get() == name;
-    }
-    /// Where an address may lie; the first that is there is meant.
-    [[nodiscard]] std::vector<fs::path> places_of(std::string uri) const {
-        const fs::path own = file_.parent_path();
-        for (const std::string_view scheme : {"package://", "model://"}) {
-            if (uri.rfind(scheme, 0) != 0) {
-                continue;
-            }
-            const std::size_t name = uri.find_first_not_of('/', scheme.size());  // some write three
-            const fs::path within = name == uri.npos ? "" : uri.substr(name);
-            const std::string package = within.empty() ? "" : within.begin()->string();
-            const fs::path rest = within.lexically_relative(package);
-            std::vector<fs::path> places;
-            for (fs::path above = own; above.has_relative_path(); above = above.parent_path()) {
-                if (is_package(above, package)) {
-                    places.push_back(above / rest);
-                }
-                places.push_back(above / within);  // a package beside one of these
-            }
-            places.push_back(own.parent_path() / rest);
-            return places;
-        }
-        if (constexpr std::string_view kFile = "file://"; uri.rfind(kFile, 0) == 0) {
-            uri.erase(0, kFile.size());
-        }
-        return {own / uri};
-    }
     [[nodiscard]] fs::path mesh_path(pugi::xml_node mesh) const {
         const std::string uri = mesh.attribute("filename").value();
-        const std::vector<fs::path> places = places_of(uri);
+        const std::vector<fs::path> places = mesh_places(uri, file_.parent_path());
         const auto found = std::find_if(places.begin(), places.end(),
                                         [](const fs::path& place) { return is_file(place); });
         if (uri.empty() || found == places.end()) {

@@ -50,7 +50,7 @@ struct UrdfRobot {
 };
 
 /// Reads links, joints, visuals and their meshes. `package://NAME/...` is looked up in the folders
-/// above the file: one that is called NAME or has a package.xml of that name, or one NAME beside
+/// above the file: one that is called NAME or has a package.xml of that name, or one NAME next to
 /// these; at last in the folder above the file's. The same for `model://`.
 /// @throws InputError "file:line: what": syntax, xacro, a number, a name twice, a joint between
 /// links

@@ -40,14 +40,14 @@ double rounded(double difference, double scale) {
 }
 
 /// Simulated less paper, where that means something.
-report::Quantity difference(const report::Quantity& said, double value, bool holds) {
+report::Quantity difference(const report::Quantity& stated, double value, bool holds) {
     if (!std::isfinite(value)) {
         return "no value";
     }
-    if (const double* paper = std::get_if<double>(&said)) {
+    if (const double* paper = std::get_if<double>(&stated)) {
         return rounded(value - *paper, *paper);
     }
-    if (const draw::Range* range = std::get_if<draw::Range>(&said)) {
+    if (const draw::Range* range = std::get_if<draw::Range>(&stated)) {
         const double below = value - range->low, above = value - range->high;
         if (below >= 0.0 && above <= 0.0) {
             return "inside";

@@ -140,7 +140,7 @@ report::PageBlock read_block(const scenario::YamlNode& node, const StudyPart& pa
                               .wide = wide != nullptr && read_flag(*wide)};
 }
 
-/// Two statements of one evidence say the same, unless one of them says of which it is the same.
+/// Statements of one evidence are the same; all but the first name it in same_as.
 void check_same(const scenario::YamlNode& root, const std::vector<PaperStatement>& statements) {
     for (std::size_t i = 0; i < statements.size(); ++i) {
         const PaperStatement& one = statements[i];

@@ -17,7 +17,7 @@ constexpr double kSpikeWindow_s = 0.5;
 constexpr double kSteady_s = 3.0;  ///< at the end of the rest
 constexpr const char* kTruth = "/truth/vehicle";
 
-/// Samples of a column; all that they tell is NaN without any.
+/// Samples of a column; every result is NaN without any.
 struct Samples {
     std::vector<double> values = {};
 
@@ -92,7 +92,7 @@ public:
         set("wall_angle_error_deg", std::abs(start["misalignment_deg"] + degrees(yaw_rad)));
         set("spike_after_s", impact.time_s() - start.time_s());
         set("contact_s", first_contact_s());
-        // The last 0.2 s, up to 50 ms before the force sensor said so.
+        // The last 0.2 s, up to 50 ms before the force sensor measured it.
         const Samples speeds =
             within(kTruth, "velocity_north_m_s", impact.time_s() - 0.25, impact.time_s() - 0.05);
         set("approach_speed_change_m_s", speeds.most() - speeds.least());

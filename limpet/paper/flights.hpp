@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "limpet/paper/evidence.hpp"
+#include "limpet/paper/claims.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/simulation/flight.hpp"
 
@@ -28,7 +28,7 @@ struct FlightOrder {
 [[nodiscard]] PaperFlight fly_recorded(const FlightOrder& order,
                                        const std::filesystem::path& folder);
 
-/// Takes what the paper's text tells of its figures out of a flight: "NAME.spike_N" and so on.
+/// Measures on a flight what the paper's text states of its figures: "NAME.spike_N" and so on.
 /// Everything is read from the recording or from the flight's metrics; what did not come to pass is
 /// NaN.
 void measure(const PaperFlight& flight, Evidence& evidence);

@@ -7,7 +7,6 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parallel.hpp"
-#include "limpet/core/required.hpp"
 #include "limpet/plant/reduced_plant.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/advance.hpp"
@@ -228,7 +227,7 @@ double hover_tilt_deg(const std::string& scenario) {
             worst_rad = std::max(worst_rad, std::acos(std::min(1.0, z_B_W.z())));
         }
     }
-    require(flight.state().ending->outcome == Outcome::released, "a hover that ends as asked");
+    require(flight.state().ending->outcome == Outcome::released, "a hover that ends as commanded");
     return degrees(worst_rad);
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "limpet/causes/cause_places.hpp"
 #include "limpet/causes/causes.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/parallel.hpp"
@@ -20,7 +19,7 @@ constexpr std::size_t kEvery = (1U << causes::kCauses) - 1;
 constexpr std::uint64_t kSeed = 31;
 
 /// Share of the growth's variance over the prior by each input; a swing that decays faster than
-/// this counts as if it did so by this, for nobody would see a difference.
+/// this counts as if it did so by this, for the difference would not be visible.
 std::vector<study::SobolIndex> growth_indices(const Study& study) {
     constexpr double kLeast_1_s = -0.5;
     const std::size_t samples = study.quick ? 32 : 256, inputs = causes::cause_inputs().size();
@@ -49,7 +48,7 @@ std::vector<study::SobolIndex> growth_indices(const Study& study) {
     return study::sobol_indices(all);
 }
 
-void tell_causes(Study& study, const causes::CausePosterior& posterior) {
+void report_causes(Study& study, const causes::CausePosterior& posterior) {
     const std::vector<double> sets = posterior.set_probabilities();
     const double nothing = posterior.weighted[0].evidence();
     draw::ChartPanel panel{.y_label = "probability that it takes part",
@@ -96,7 +95,7 @@ void tell_causes(Study& study, const causes::CausePosterior& posterior) {
     study.evidence.set("causes.all", posterior.weighted[kEvery].evidence());
 }
 
-void tell_inputs(Study& study, const causes::CausePosterior& posterior) {
+void report_inputs(Study& study, const causes::CausePosterior& posterior) {
     const std::vector<study::SobolIndex> indices = growth_indices(study);
     TableRows rows;
     for (std::size_t i = 0; i < causes::cause_inputs().size(); ++i) {
@@ -116,7 +115,7 @@ void tell_inputs(Study& study, const causes::CausePosterior& posterior) {
     study.table("cause-inputs", rows);
 }
 
-void tell_measurements(Study& study, const causes::CausePosterior& posterior) {
+void report_measurements(Study& study, const causes::CausePosterior& posterior) {
     TableRows rows;
     for (const causes::CauseMeasurement& one : causes::measurements(posterior, kSeed, study.jobs)) {
         rows.push_back({one.name, one.accuracy, one.bits});
@@ -130,7 +129,7 @@ void tell_measurements(Study& study, const causes::CausePosterior& posterior) {
 }
 
 /// The altitude loop is guidance's, which the linearised loop leaves out: flown, kicked.
-void tell_altitude(Study& study) {
+void report_altitude(Study& study) {
     study.say("causes: the altitude loop, by kicked flights");
     struct Pair {
         double with = 0.0, without = 0.0;
@@ -151,7 +150,7 @@ void tell_altitude(Study& study) {
     });
     double flown = 0.0, damped = 0.0;
     for (const Pair& pair : pairs) {
-        // No growth to be told: no swing stands out of the kick any more.
+        // No growth can be measured: no swing stands out of the kick any more.
         flown += pair.flown ? 1.0 : 0.0;
         damped += pair.flown && (!std::isfinite(pair.with) || pair.with < pair.without) ? 1.0 : 0.0;
     }
@@ -191,10 +190,10 @@ void study_causes(Study& study) {
              {"causes.frequency_high_Hz", posterior.quantile(frequency, 0.975)}}) {
         study.evidence.set(name, value);
     }
-    tell_causes(study, posterior);
-    tell_inputs(study, posterior);
-    tell_measurements(study, posterior);
-    tell_altitude(study);
+    report_causes(study, posterior);
+    report_inputs(study, posterior);
+    report_measurements(study, posterior);
+    report_altitude(study);
 }
 
 }  // namespace

@@ -143,14 +143,14 @@ StudyPart flights_part() {
     for (const PaperFigure& figure : kFigures) {
         part.shows.emplace_back(figure.id);
     }
-    Evidence told;  // of flights that never were: every name, no value
+    Evidence named;  // of flights that never were: every name, no value
     std::vector<PaperFlight> flights(orders().size());
     for (std::size_t i = 0; i < flights.size(); ++i) {
         flights[i].name = orders()[i].name;
-        measure(flights[i], told);
+        measure(flights[i], named);
     }
-    measure_together(flights, told);
-    for (const auto& [name, value] : told.all()) {
+    measure_together(flights, named);
+    for (const auto& [name, value] : named.all()) {
         part.measures.push_back(name);
     }
     return part;

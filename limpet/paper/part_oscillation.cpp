@@ -11,10 +11,8 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/parallel.hpp"
-#include "limpet/core/required.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/oscillation.hpp"
-#include "limpet/paper/recorded.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -146,7 +144,7 @@ void study_map(Study& study) {
     auto& defaults = std::get<draw::HeatPanel>(chart.panels.front());
     TableRows rows;
     double most_1_s = 0.0;
-    const auto tell = [&](const std::string& who, std::vector<MapPoint> points, bool drawn) {
+    const auto add = [&](const std::string& who, std::vector<MapPoint> points, bool drawn) {
         for (MapPoint& one : points) {
             one.linear_1_s =
                 required(stability::linear_swing(kSlow, overrides_of(one)), kSwings).growth_1_s;
@@ -162,8 +160,8 @@ void study_map(Study& study) {
         }
     };
     const RecordedSamples recorded = recorded_samples();
-    tell(recorded.by, recorded.points, true);
-    tell("built-in", fly_samples(study), false);
+    add(recorded.by, recorded.points, true);
+    add("built-in", fly_samples(study), false);
     study.draw("fig-map", chart);
     study.table("map-check", rows);
     study.evidence.set("swing.px4_apart_1_s", most_1_s);
@@ -298,7 +296,7 @@ const SwingMissions& of(const std::vector<MissionCase>& cases, std::string_view 
 
 void study_missions(Study& study) {
     const std::vector<MissionCase> cases = fly_missions(study);
-    // Beside each other: distributions over each other hide those that coincide.
+    // Next to each other: distributions over each other hide those that coincide.
     draw::ChartPanel panel{.y_label = "largest pitch while waiting for the release  [deg]",
                            .levels = {{.at = 5.0, .label = "paper: 5 deg"}},
                            .log_y = true};

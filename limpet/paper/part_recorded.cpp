@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/paper/recorded.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/scenario/data_folder.hpp"
 

@@ -78,7 +78,7 @@ void study_rotors(Study& study) {
             points.add(row.speed_rad_s, row.thrust_N);
         }
         draw::ChartSeries curve{.name = fmt::format("{}, paper's k_mot w²", vehicle)};
-        const double k_mot = study.said(evidence_of(vehicle, kRows[0])).first;
+        const double k_mot = study.stated(evidence_of(vehicle, kRows[0])).first;
         curve.add({0.0, bench.rotor.speed_max_rad_s}, 60,
                   [k_mot](double w) { return k_mot * w * w; });
         thrust.series.insert(thrust.series.end(), {points, curve});
@@ -86,7 +86,7 @@ void study_rotors(Study& study) {
             const std::string evidence = evidence_of(vehicle, row);
             study.evidence.set(evidence, bench.recovered.*row.value);
             const auto text = [](double value) { return fmt::format("{:.3g}", value); };
-            table.push_back({row.name, vehicle, text(study.said(evidence).first),
+            table.push_back({row.name, vehicle, text(study.stated(evidence).first),
                              text(bench.used.*row.value), text(bench.recovered.*row.value)});
         }
     }

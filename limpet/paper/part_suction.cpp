@@ -30,7 +30,7 @@ constexpr std::array<Column, 4> kColumns = {{
     {"press_metal", "metallic surface"},
 }};
 
-/// One surface of Fig. 2 on the press rig, and what the log tells.
+/// One surface of Fig. 2 on the press rig, and what its log gives.
 struct Press {
     std::string name;
     std::string flight;
@@ -41,7 +41,7 @@ struct Press {
     identification::PressureFit pneumatic = {};
 };
 
-/// What the vehicle's sensor said on a flight, with its noise.
+/// What the vehicle's sensor measured on a flight, with its noise.
 identification::PressureTrace flown(const FlightOrder& order, const Study& study) {
     const PaperFlight flight = fly_recorded(order, study.folder / "flights");
     const auto [time_s, values] =
@@ -80,7 +80,7 @@ double value_or_nan(const std::optional<identification::Fitted>& fitted) {
     return fitted ? fitted->value : kNaN;
 }
 
-/// Of a surface, in the units of Table II; NaN where the log does not tell.
+/// Of a surface, in the units of Table II; NaN where the log does not determine it.
 double vacuum_hPa(const Press& press) {
     return hectopascals(value_or_nan(true_vacuum_Pa(press.fit)));
 }
@@ -163,14 +163,14 @@ std::string with_interval(const std::optional<identification::Fitted>& fitted, d
                : "not found";
 }
 
-/// Table II of a surface: the paper's, ours, and what was recovered of ours.
+/// Table II of a surface: the paper's, Limpet's, and what was recovered of the latter.
 void add_rows(const Press& press, const Study& study, TableRows& rows) {
     const auto tau = [&](const char* name) {
-        const auto [value, tolerance] = study.said(press.flight + name);
+        const auto [value, tolerance] = study.stated(press.flight + name);
         return fmt::format("{:g} ± {:g}", value, tolerance);
     };
     rows.push_back({press.name, "P_vac, hPa",
-                    fmt::format("{:g}", study.said(press.flight + ".vacuum_hPa").first),
+                    fmt::format("{:g}", study.stated(press.flight + ".vacuum_hPa").first),
                     hectopascals(press.surface.vacuum_pressure_Pa),
                     with_interval(true_vacuum_Pa(press.fit), hectopascals(1.0)),
                     with_interval(true_vacuum_Pa(press.pneumatic), hectopascals(1.0))});

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/paper/evidence.hpp"
+#include "limpet/paper/claims.hpp"
 #include "limpet/report/page.hpp"
 
 namespace limpet::paper {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "limpet/paper/evidence.hpp"
+#include "limpet/paper/claims.hpp"
 
 /// Small experiments on parts of the simulation, each on the code that flies.
 namespace limpet::paper {
 
-/// What the vehicle's file says, and how bodies move without forces.
+/// What the vehicle's file holds, and how bodies move without forces.
 void measure_vehicle(Evidence& evidence);
 
 /// Load at which a sealed cup lets go.

@@ -26,13 +26,13 @@ Block& find(std::vector<report::PageBlock>& blocks, const std::string& id) {
         const Block* one = std::get_if<Block>(&block);
         return one != nullptr && one->id == id;
     });
-    require(found != blocks.end(), "a part shows what it says");
+    require(found != blocks.end(), "a part shows what it lists");
     return std::get<Block>(*found);
 }
 
 }  // namespace
 
-std::pair<double, double> Study::said(const std::string& name) const {
+std::pair<double, double> Study::stated(const std::string& name) const {
     const PaperStatement* found = find_by(statements, &PaperStatement::evidence, name);
     const double* number = found == nullptr ? nullptr : std::get_if<double>(&found->claim.paper);
     if (number == nullptr) {
@@ -90,7 +90,7 @@ void Study::say(const std::string& what) const {
 
 report::PageSection Study::section(const StudyPart& part) {
     for (const std::string& name : part.measures) {
-        require(evidence.has(name), "a part measures what it says");
+        require(evidence.has(name), "a part measures what it lists");
     }
     const auto fill = [this](std::string& text) {
         text = filled(text, [this](const std::string& name) { return evidence.get(name); });

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,7 +13,6 @@
 
 #include "limpet/draw/chart.hpp"
 #include "limpet/paper/claims.hpp"
-#include "limpet/paper/evidence.hpp"
 #include "limpet/report/page.hpp"
 
 namespace limpet::paper {
@@ -34,7 +34,7 @@ struct Study {
         {};  ///< of the part that runs, from data/paper/page.yaml
 
     /// The paper's number on what a part measures, and its tolerance.
-    [[nodiscard]] std::pair<double, double> said(const std::string& name) const;
+    [[nodiscard]] std::pair<double, double> stated(const std::string& name) const;
     /// Draws a figure of the part's into figures/, under its title there.
     void draw(const std::string& id, draw::Chart chart);
     /// Takes FOLDER/flights/FLIGHT/PICTURE.png, and .svg if there is one, for a figure of the
@@ -44,7 +44,7 @@ struct Study {
     /// program was built without that page.
     void show(const std::string& flight) const;
     void table(const std::string& id, TableRows rows);
-    /// Tells what comes next; before that it stops where it was asked to.
+    /// Reports what comes next; before that it stops where `stop` is set.
     /// @throws Interrupted
     void say(const std::string& what) const;
     /// What has come of the part that ran last, its texts filled in.
@@ -77,7 +77,7 @@ struct StudyPart {
 /// In the paper's order.
 [[nodiscard]] const std::vector<StudyPart>& parts();
 
-/// What the page says around its numbers.
+/// The page's texts around its numbers.
 struct PageText {
     std::string title = {};
     std::string subtitle = {};
@@ -97,10 +97,10 @@ inline const std::vector<std::string> kSummaryCounts = {
 /// @return all of kSummaryCounts
 [[nodiscard]] Evidence counted(const std::vector<report::Claim>& claims);
 
-/// A file like data/paper/page.yaml, whose head says what its keys are.
+/// A file like data/paper/page.yaml, whose head describes its keys.
 /// @param parts  all that there are; what they show and the file's tables and figures are the same
 /// @throws InputError for what is not so: an unknown key, a part, table or figure without a text or
-/// the other way about, a number that nobody measures, a format that is none
+/// the other way about, a number that no part measures, a format that is none
 [[nodiscard]] PageText load_page_text(const std::filesystem::path& file,
                                       const std::vector<StudyPart>& parts);
 
@@ -108,5 +108,10 @@ inline const std::vector<std::string> kSummaryCounts = {
 /// @throws fmt::format_error for a format that is none, a { without its }
 [[nodiscard]] std::string filled(std::string_view text,
                                  const std::function<double(const std::string& name)>& number);
+
+/// A flight, or flights, of parts that are not at hand here, flown elsewhere and kept:
+/// data/paper/recorded/NAME.json, by data/paper/record or tests/px4/real.
+/// @throws InputError when it is none
+[[nodiscard]] nlohmann::json read_recorded(const std::string& name);
 
 }  // namespace limpet::paper

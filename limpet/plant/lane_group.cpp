@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/plant/lane_group.hpp"
 
-#include <algorithm>
 #include <boost/context/fiber.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
 #include <exception>
@@ -118,7 +117,7 @@ private:
     /// Everybody goes on as far as it can.
     /// @return false when all are over
     bool turn() {
-        bool asked = false;
+        bool requested = false;
         bool flies = false;
         for (running_ = 0; running_ < fibers_.size(); ++running_) {
             Fiber& fiber = fibers_[running_];
@@ -126,18 +125,18 @@ private:
                 fiber.inside = std::move(fiber.inside).resume();
             }
             flies = flies || fiber.inside;
-            asked = asked || (fiber.inside && fiber.waits == Waits::answer);
+            requested = requested || (fiber.inside && fiber.waits == Waits::answer);
         }
         if (!flies) {
             return false;
         }
-        if (asked) {
+        if (requested) {
             bodies_->answer();
         } else {
             bodies_->step();
         }
         for (Fiber& fiber : fibers_) {
-            if (!asked || fiber.waits == Waits::answer) {
+            if (!requested || fiber.waits == Waits::answer) {
                 fiber.waits = Waits::no;
             }
         }
@@ -206,7 +205,7 @@ private:
         group_.wait(Waits::answer);
         return bodies_.held(lane_);
     }
-    /// Few ask, and seldom together: each for itself.
+    /// Few request it, and seldom together: each by itself.
     [[nodiscard]] Response response(const Matrix3& R_WT) override {
         bodies_.let_go(lane_);
         return by_itself().bear_cup(mode_)->response(R_WT);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "limpet/core/cup_bearer.hpp"
 #include "limpet/core/lanes.hpp"
@@ -62,8 +61,8 @@ struct MechanismForces {
     Spatial<T> base, carriage, cup;  ///< about B's origin, in B
 };
 
-/// Where everything is at one state, how it resists, and what it asks for to go on as it does. All
-/// falls: accelerations are those beside gravity's, so that no body carries its own weight.
+/// Where everything is at one state, how it resists, and what it needs to go on as it does. All
+/// falls: accelerations are those besides gravity's, so that no body carries its own weight.
 template <class T>
 struct Mechanism {
     Mat3<T> R_WB = Mat3<T>::Identity();
@@ -80,7 +79,7 @@ struct Mechanism {
     Vec3<T> lip_drift_m_s2 = Vec3<T>::Zero();
     Vec3<T> cup_drift_rad_s2 = Vec3<T>::Zero();
     SpatialInertia<T> carriage, cup;
-    MechanismForces<T> force;  ///< what the speeds ask for
+    MechanismForces<T> force;  ///< what the speeds require
 };
 
 /// A symmetric matrix in axes that are turned about one of them: R M R' with R about z (axis 2) or
@@ -102,7 +101,7 @@ template <int axis, class T>
     return turned;
 }
 
-/// What a body asks for to turn on about B's origin, at rest there, with w.
+/// What a body needs to turn on about B's origin, at rest there, with w.
 template <class T>
 [[gnu::always_inline]] inline Spatial<T> spinning(const SpatialInertia<T>& body, const Vec3<T>& w) {
     const Vec3<T> h = body.mass_moment();

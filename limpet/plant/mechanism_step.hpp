@@ -120,7 +120,7 @@ public:
         return joints_[joint].now - joints_[joint].gain * change.joint[joint];
     }
 
-    /// To a wrench on the cup beside all that has been pushed; nothing holds the lip.
+    /// To a wrench on the cup in addition to all that has been pushed; nothing holds the lip.
     [[nodiscard]] CupBearer::Response response(const Mat3<T>& R_WT) {
         CupBearer::Response response;
         const Mat3<T> R_BT = at_.R_WB.transpose() * R_WT;

@@ -71,7 +71,7 @@ int find_joint(const mjModel& model, int body, mjtJoint type, const char* what) 
     return joint;
 }
 
-/// The model of a text, made once for all who ask for it: a campaign that varies neither vehicle
+/// The model of a text, made once for all who request it: a campaign that varies neither vehicle
 /// nor wall compiles once. Few are kept, so that one that varies a mass does not keep a model a
 /// run.
 std::shared_ptr<const MujocoModel> compiled(std::string mjcf, const vehicle::Airframe& airframe) {

@@ -21,7 +21,7 @@ using mujoco_frames::turn_attitude;
 
 using Map3 = Eigen::Map<const Vector3>;
 
-/// Visits every array on which the future depends, beside the positions, in the order in which it
+/// Visits every array on which the future depends, besides the positions, in the order in which it
 /// is saved. All else that mjData holds follows from these.
 template <class Visit>
 void for_each_state(const mjModel& model, mjData& data, Wrench& contacts_W, double& slider_N,

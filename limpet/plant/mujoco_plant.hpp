@@ -16,7 +16,7 @@ namespace limpet::plant {
 /// The general plant: MuJoCo 2.2.
 ///
 /// A step is MuJoCo's second half (forces, constraints, semi-implicit Euler) followed by its first
-/// half (positions, velocities, contacts) at the state just reached: what is asked between two
+/// half (positions, velocities, contacts) at the state just reached: what is read between two
 /// steps is never stale and never computed twice. The step length and the contact switch live in
 /// the model's options; every plant keeps its own shallow copy of mjModel for them, whose arrays
 /// are the shared, immutable ones.

@@ -54,7 +54,7 @@ public:
     /// @param wrench_W  force and moment about p_W, in W [N, N m]
     /// @param p_W_m     where the force acts [m]
     virtual void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) = 0;
-    /// For the lip to ask what the cup will do in a step of this mode with the wrenches added so
+    /// For the lip to know what the cup will do in a step of this mode with the wrenches added so
     /// far. The lip's wrench is applied after; held by springs, the plant knows it already and
     /// takes the two for one.
     /// @return null from a plant that does not know: then a stiff lip is stable only at short steps

@@ -2,7 +2,6 @@
 #include "limpet/plant/reduced_plant.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -43,7 +42,7 @@ using OneBody = ReducedBodies<Lanes<1>>;
 
 LIMPET_FOR_MACHINES [[gnu::flatten]] void prepare_step(OneBody& bodies, const StepMode& mode) {
     bodies.prepare(mode.step_s, {mode.touches(0), mode.touches(1)});
-    (void)bodies.step().change();  // whoever prepares asks for it next
+    (void)bodies.step().change();  // who prepares needs it next
 }
 LIMPET_FOR_MACHINES [[gnu::flatten]] void take_step(OneBody& bodies, double step_s) {
     bodies.advance(step_s);
@@ -186,7 +185,7 @@ void ReducedPlant::displace(std::span<const double> step) {
 }
 
 void ReducedPlant::displacement_from(const PlantState& origin, std::span<double> step) const {
-    require(step.size() == 2 * kFreedoms, "room for each degree of freedom and each speed");
+    require(step.size() == 2 * kFreedoms, "space for each degree of freedom and each speed");
     ReducedState<double> before;
     put_lane(before, 0, origin.values);
     const MechanismState<double>& from = before.bodies;

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
@@ -17,18 +18,24 @@ namespace {
 
 using Settings = std::vector<Px4Setting>;
 
-constexpr int kFirstOwnId = 22000;  // init.d-posix/airframes/CMakeLists.txt
-constexpr int kLastOwnId = 22999;
+/// In the order of their numbers, which stay: new ones at the end.
+constexpr std::array<std::string_view, 5> kShipped = {"perching_uav", "perching_hexa",
+                                                      "perching_x8", "iris", "cad_uav"};
+constexpr int kShippedFrom = kFirstOwnAirframe + 1;
 
 /// @throws InputError when PX4 would call the value out of range
+void require_in_range(const std::string& name, double value, const Px4Fact& fact) {
+    if (!(value >= fact.minimum && value <= fact.maximum)) {
+        throw InputError(fmt::format("{} = {:g}: PX4 allows {:g} .. {:g}", name, value,
+                                     fact.minimum, fact.maximum));
+    }
+}
+
 void add(Settings& settings, const std::string& name, double value, std::string reason,
          bool fixed = false) {
     const Px4Fact* fact = find_px4_fact(name);
     require(fact != nullptr, "every parameter that is set is in parameters.json");
-    if (!(value >= fact->minimum && value <= fact->maximum)) {
-        throw InputError(fmt::format("{} = {:g}: PX4 allows {:g} .. {:g}", name, value,
-                                     fact->minimum, fact->maximum));
-    }
+    require_in_range(name, value, *fact);
     settings.push_back({.name = name,
                         .type = fact->type,
                         .value = value,
@@ -116,6 +123,27 @@ void add_part(const char* part, const Px4Airframe& airframe, Settings& settings)
 
 }  // namespace
 
+int px4_airframe_id(std::string_view vehicle) {
+    constexpr int kOthersFrom = kFirstOwnAirframe + 100;
+    const auto* const found = std::find(kShipped.begin(), kShipped.end(), vehicle);
+    if (found != kShipped.end()) {
+        return kShippedFrom + static_cast<int>(found - kShipped.begin());
+    }
+    constexpr auto kOthers = static_cast<std::uint32_t>(kLastOwnAirframe - kOthersFrom + 1);
+    std::uint32_t hash = 2166136261U;  // FNV-1a
+    for (const char letter : vehicle) {
+        hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
+    }
+    return kOthersFrom + static_cast<int>(hash % kOthers);
+}
+
+std::string_view px4_airframe_vehicle(int id) {
+    const int place = id - kShippedFrom;
+    return place >= 0 && place < static_cast<int>(kShipped.size())
+               ? kShipped[static_cast<std::size_t>(place)]
+               : std::string_view();
+}
+
 Px4Frame px4_frame(const Px4Airframe& airframe) {
     const RotorList<autopilot::RotorGeometry>& rotors = airframe.rotors;
     const double plane_m = rotors.empty() ? 0.0 : rotors[0].p_B_m.z();
@@ -131,9 +159,9 @@ Px4Frame px4_frame(const Px4Airframe& airframe) {
 }
 
 std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe) {
-    if (airframe.id < kFirstOwnId || airframe.id > kLastOwnId) {
+    if (airframe.id < kFirstOwnAirframe || airframe.id > kLastOwnAirframe) {
         throw InputError(fmt::format("airframe id {}: PX4 keeps {} .. {} for a user's own models",
-                                     airframe.id, kFirstOwnId, kLastOwnId));
+                                     airframe.id, kFirstOwnAirframe, kLastOwnAirframe));
     }
     Settings settings;
     add_rotors(airframe, settings);
@@ -155,7 +183,26 @@ std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe) {
     if (airframe.target != Px4Target::sitl) {
         add_part("companion", airframe, settings);
     }
+    if (airframe.version == Px4Version::main) {
+        std::erase_if(settings,
+                      [](const Px4Setting& setting) { return find_px4_fact(setting.name)->gone; });
+    }
     return settings;
+}
+
+Px4Fitted fitted(const std::vector<Px4Setting>& settings, const Px4Facts& known) {
+    Px4Fitted result;
+    for (const Px4Setting& setting : settings) {
+        const auto found = known.find(setting.name);
+        if (found == known.end()) {
+            result.left_out.push_back(setting.name);
+            continue;
+        }
+        require_in_range(setting.name, setting.value, found->second);
+        result.settings.push_back(setting);
+        result.settings.back().type = found->second.type;
+    }
+    return result;
 }
 
 }  // namespace limpet::px4

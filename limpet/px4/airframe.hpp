@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limpet/autopilot/allocation.hpp"
 #include "limpet/autopilot/parameters.hpp"
+#include "limpet/mavlink/messages.hpp"
 #include "limpet/px4/facts.hpp"
 
 namespace limpet::px4 {
@@ -25,7 +27,7 @@ enum class Px4Pose {
 
 struct Px4Airframe {
     std::string name;  ///< of the vehicle; other characters than a-z, A-Z, 0-9, _, - become _
-    int id = 22001;    ///< SYS_AUTOSTART, 22000..22999: PX4 keeps those for a user's own models
+    int id = 22001;    ///< SYS_AUTOSTART, 22000..22999; px4_airframe_id
     RotorList<autopilot::RotorGeometry> rotors;
     double battery_cells = 6.0;
     double battery_capacity_Ah = 4.0;
@@ -33,6 +35,7 @@ struct Px4Airframe {
     autopilot::AutopilotParameters autopilot;
     Px4Target target = Px4Target::sitl;
     Px4Pose pose = Px4Pose::motion_capture;
+    Px4Version version = Px4Version::released;
 };
 
 /// One parameter as this vehicle needs it.
@@ -44,6 +47,14 @@ struct Px4Setting {
     bool fixed = false;  ///< `param set`, not `set-default`: a user's own value must not win
 };
 
+/// PX4 keeps 22000..22999 for a user's own models. PX4 takes the last script of a number: a vehicle
+/// has one of its own, the same for ever. Shipped vehicles 22001.., others by their name.
+[[nodiscard]] int px4_airframe_id(std::string_view vehicle);
+/// The shipped vehicle of a number; empty: none has it.
+[[nodiscard]] std::string_view px4_airframe_vehicle(int id);
+inline constexpr int kFirstOwnAirframe = 22000;  // init.d-posix/airframes/CMakeLists.txt
+inline constexpr int kLastOwnAirframe = 22999;
+
 /// What the number and places of its rotors make of it.
 struct Px4Frame {
     const char* says;  ///< "a hexarotor"
@@ -51,14 +62,23 @@ struct Px4Frame {
 };
 [[nodiscard]] Px4Frame px4_frame(const Px4Airframe& airframe);
 
-/// What PX4 v1.15 must be told, in the order in which a person reads it. Of the built-in
-/// autopilot's parameters only control's (MPC_, MC_, IMU_) go over, where they differ from PX4's
-/// defaults: its estimator has EKF2's names, but is another filter.
+/// What a PX4 of airframe.version must be set to, in the order in which a person reads it. Of the
+/// built-in autopilot's parameters only control's (MPC_, MC_, IMU_) go over, where they differ from
+/// PX4's defaults: its estimator has EKF2's names, but is another filter.
 /// @throws InputError naming a parameter that is out of PX4's range, and an id that is not
 ///         22000..22999
 [[nodiscard]] std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe);
 
-/// A parameter file for QGroundControl, and for load_px4_params: tab-separated lines
+/// Settings that a PX4 has no parameter for: what became of them stands in docs/px4.md.
+struct Px4Fitted {
+    std::vector<Px4Setting> settings;
+    std::vector<std::string> left_out;  ///< names
+};
+/// To a PX4 that was built.
+/// @throws InputError naming a parameter whose value is out of that PX4's range
+[[nodiscard]] Px4Fitted fitted(const std::vector<Px4Setting>& settings, const Px4Facts& known);
+
+/// A parameter file for QGroundControl: tab-separated lines
 /// `vehicle component name value type`; each has its reason in a comment above it.
 [[nodiscard]] std::string px4_params_text(const Px4Airframe& airframe,
                                           const std::vector<Px4Setting>& settings);
@@ -71,7 +91,7 @@ struct Px4Frame {
 [[nodiscard]] std::string px4_make_target(const Px4Airframe& airframe);
 inline constexpr const char* kPx4MakeTarget = "sitl_targets_limpet.cmake";
 
-/// `22001_limpet_NAME`: PX4 finds it by the number, by PX4_SIM_MODEL=limpet_NAME too.
+/// `ID_limpet_NAME`: PX4 finds it by the number, by PX4_SIM_MODEL=limpet_NAME too.
 [[nodiscard]] std::string px4_airframe_file_name(const Px4Airframe& airframe);
 
 /// Where the script belongs in PX4's source tree.

@@ -36,9 +36,9 @@ std::string number_text(const Px4Setting& setting) {
     return text;
 }
 
-/// As PX4's other simulators are launched: by name, the simulator beside PX4.
+/// As PX4's other simulators are launched: by name, the simulator next to PX4.
 constexpr const char* kLaunch = R"sh(
-# PX4_SIMULATOR=limpet: the simulator is started beside PX4, unless it runs (PX4_LIMPET_STANDALONE)
+# PX4_SIMULATOR=limpet: the simulator is started next to PX4, unless it runs (PX4_LIMPET_STANDALONE)
 if [ "$PX4_SIMULATOR" = "limpet" ] && [ -z "$PX4_LIMPET_STANDALONE" ]; then
 	limpet fly "${PX4_LIMPET_SCENARIO:-perch_concrete}" --autopilot px4 --instance "${px4_instance:-0}" &
 fi
@@ -112,7 +112,7 @@ std::string px4_airframe_script(const Px4Airframe& airframe,
 std::string px4_make_target(const Px4Airframe& airframe) {
     const std::string model = "limpet_" + plain(airframe.name);
     return fmt::format(
-        R"cmake(# Written by limpet px4-params. Belongs into src/modules/simulation/simulator_mavlink, beside the other
+        R"cmake(# Written by limpet px4-params. Belongs into src/modules/simulation/simulator_mavlink, next to the other
 # simulators' (an include of it into the CMakeLists.txt there): make px4_sitl_default {0}
 
 find_program(LIMPET_PATH limpet)

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <utility>
 
+#include "limpet/core/frames.hpp"
 #include "limpet/px4/stand_in.hpp"
 
 namespace limpet::px4 {
@@ -18,13 +19,17 @@ using mavlink::OffboardState;
 
 namespace {
 
-/// Room in the wire is waited for no longer: a jammed one must not make guidance late.
+/// Space in the wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kRoom{5};
 
 std::string_view version_1() {
     static const std::string text = fmt::format("the autopilot speaks {}", mavlink::kVersion1);
     return text;
 }
+
+/// Before take-off: so far from motion capture an estimate is of another place.
+constexpr double kApart_m = 1.0;
+constexpr double kApart_rad = radians(30.0);
 
 bool is_stand_in(const mavlink::AutopilotVersion& version) {
     return std::equal(kStandInMark.begin(), kStandInMark.end(),
@@ -55,8 +60,8 @@ Px4Autopilot::Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Optio
 
 void Px4Autopilot::hear(const mavlink::Frame& frame) {
     offboard_.hear(frame, clock_s());
-    if (const auto told = mavlink::decode<mavlink::Odometry>(frame)) {
-        told_usec_ = told->time_usec;
+    if (const auto odometry = mavlink::decode<mavlink::Odometry>(frame)) {
+        odometry_usec_ = odometry->time_usec;
     }
     if (offboard_.report().texts != texts_) {
         texts_ = offboard_.report().texts;
@@ -68,7 +73,7 @@ void Px4Autopilot::hear(const mavlink::Frame& frame) {
 
 /// Whether its clock is ours, and its estimate has come.
 bool Px4Autopilot::in_step() const {
-    return options_.hil.timing == mavlink::HilTiming::lockstep && told_usec_ > 0;
+    return options_.hil.timing == mavlink::HilTiming::lockstep && odometry_usec_ > 0;
 }
 
 /// A fresh estimate for guidance costs system calls: at twice its rate, not at the IMU's. On a busy
@@ -89,7 +94,7 @@ void Px4Autopilot::listen() {
         }
         hear(*frame);
     }
-    if (in_step() && clock_s() - 1e-6 * static_cast<double>(told_usec_) > kLag_s) {
+    if (in_step() && clock_s() - 1e-6 * static_cast<double>(odometry_usec_) > kLag_s) {
         const auto begin = std::chrono::steady_clock::now();
         if (const auto frame = offboard_link_.receive(kMoment)) {
             hear(*frame);
@@ -104,9 +109,9 @@ Estimate Px4Autopilot::estimate(double time_s) {
     Estimate estimate = offboard_.estimate(clock_s());
     estimate.time_s = time_s;
     if (in_step()) {
-        estimate.age_s = std::max(0.0, clock_s() - 1e-6 * static_cast<double>(told_usec_));
+        estimate.age_s = std::max(0.0, clock_s() - 1e-6 * static_cast<double>(odometry_usec_));
     }
-    estimate.valid = estimate.valid && !tracker_silent(time_s);
+    estimate.valid = estimate.valid && !tracker_silent(time_s) && !awaits_origin() && !elsewhere();
     return estimate;
 }
 
@@ -114,6 +119,24 @@ Estimate Px4Autopilot::estimate(double time_s) {
 bool Px4Autopilot::tracker_silent(double time_s) const {
     return readings_.motion_capture.ever() &&
            !readings_.motion_capture.fresh(time_s, options_.aiding_limit_s);
+}
+
+bool Px4Autopilot::awaits_origin() const {
+    return options_.flies && offboard_.awaits_origin(clock_s());
+}
+
+/// Before the first take-off: its pose is another than the one that it was sent. A bias, a frame or
+/// a height of its own, and a tracker that it does not use, look like this. By GPS its origin is
+/// another one, and its estimate is off by metres.
+bool Px4Autopilot::elsewhere() const {
+    const bool by_gps = std::isinf(options_.aiding_limit_s);
+    if (flew_ || !options_.flies || by_gps || !readings_.motion_capture.ever()) {
+        return false;
+    }
+    const Estimate estimate = offboard_.estimate(clock_s());
+    const PoseReading& pose = readings_.motion_capture.value;
+    return estimate.valid && ((estimate.p_WB_m - pose.p_WB_m).norm() > kApart_m ||
+                              estimate.q_WB.angularDistance(pose.q_WB) > kApart_rad);
 }
 
 /// Set to MAVLink 1 alone, it is there and seems silent.
@@ -133,13 +156,17 @@ void Px4Autopilot::exchange(const Setpoint& setpoint) {
         if (apart) {
             offboard_link_.cork();
         }
-        offboard_.update(offboard_link_, setpoint, clock_s());
+        if (awaits_origin() || elsewhere()) {
+            offboard_.attend(offboard_link_, clock_s());
+        } else {
+            offboard_.update(offboard_link_, setpoint, clock_s());
+        }
     }
     status_ = hil_.exchange(
         readings_, clock_usec_,
         [this](const mavlink::Frame& frame) {
-            // Until the clocks are in step, when something is heard is a matter of the machine: its
-            // greetings are left alone.
+            // Until the clocks are in step, when something is received is a matter of the machine:
+            // its greetings are left alone.
             if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {
                 hear(frame);
             }
@@ -157,7 +184,7 @@ Mover Px4Autopilot::mover() {
     return armed ? Mover::rotors : flew_ ? Mover::nothing : Mover::hand;
 }
 
-/// As it was heard, stamped by the flight's clock.
+/// As it was received, stamped by the flight's clock.
 Estimate Px4Autopilot::heard_estimate(double time_s) const {
     Estimate estimate = offboard_.estimate(clock_s());
     estimate.time_s += time_s - clock_s();
@@ -169,7 +196,8 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
     readings_ = readings;
     watch_.feel(readings.imu);
     readings_.motion_capture =
-        watch_.trusted(readings.motion_capture, heard_estimate(time_s), mover());
+        awaits_origin() ? Sample<PoseReading>()
+                        : watch_.trusted(readings.motion_capture, heard_estimate(time_s), mover());
     clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
     exchange(setpoint);
     switch (status_) {
@@ -196,15 +224,17 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
     return hil_.command();
 }
 
-/// Before it flies: it is armed two seconds after its estimate is heard, at the soonest.
+/// Before it flies: it is armed two seconds after its estimate is first received, at the soonest.
 void Px4Autopilot::look_who() {
     constexpr double kPatience_s = 1.5;
     const auto& version = offboard_.report().version;
-    heard_s_ = heard_s_ < 0.0 && told_usec_ > 0 ? clock_s() : heard_s_;
+    received_since_s_ =
+        received_since_s_ < 0.0 && odometry_usec_ > 0 ? clock_s() : received_since_s_;
     if (version && is_stand_in(*version)) {
-        failure_ = "the stand-in answered, and a PX4 is asked for";
-    } else if (!version && heard_s_ >= 0.0 && clock_s() - heard_s_ > kPatience_s) {
-        failure_ = "it does not tell what it is (AUTOPILOT_VERSION), and a PX4 is asked for";
+        failure_ = "the stand-in answered, and a PX4 is required";
+    } else if (!version && received_since_s_ >= 0.0 &&
+               clock_s() - received_since_s_ > kPatience_s) {
+        failure_ = "it does not report what it is (AUTOPILOT_VERSION), and a PX4 is required";
     }
 }
 
@@ -213,19 +243,20 @@ std::optional<autopilot::AutopilotIdentity> Px4Autopilot::identity() const {
     if (!report.version) {
         return std::nullopt;
     }
-    autopilot::AutopilotIdentity told{.name = "stand-in",
-                                      .version = version_text(report.version->flight_sw_version),
-                                      .git_hash = {},
-                                      .airframe = report.airframe,
-                                      .system = options_.offboard.target_system};
+    autopilot::AutopilotIdentity identity{
+        .name = "stand-in",
+        .version = version_text(report.version->flight_sw_version),
+        .git_hash = {},
+        .airframe = report.airframe,
+        .system = options_.offboard.target_system};
     if (!is_stand_in(*report.version)) {
         std::uint64_t digits = 0;
         std::memcpy(&digits, report.version->flight_custom_version.data(), sizeof(digits));
-        told.name = "PX4";
+        identity.name = "PX4";
         digits >>= 24U;  // below it, PX4 has its vendor's version
-        told.git_hash = digits == 0 ? "" : fmt::format("{:010x}", digits);
+        identity.git_hash = digits == 0 ? "" : fmt::format("{:010x}", digits);
     }
-    return told;
+    return identity;
 }
 
 std::string Px4Autopilot::obstacle() const {
@@ -238,7 +269,22 @@ std::string Px4Autopilot::obstacle() const {
     if (status_ == mavlink::HilStatus::waiting) {
         return "the autopilot boots: it has not answered HIL_SENSOR yet";
     }
-    return options_.flies ? offboard_.obstacle(clock_s()) : std::string();
+    if (!options_.flies) {
+        return {};
+    }
+    const Estimate estimate = offboard_.estimate(clock_s());
+    if (awaits_origin() && estimate.valid) {
+        return "the autopilot's origin has no latitude and longitude yet";
+    }
+    if (elsewhere() && estimate.valid) {
+        const PoseReading& pose = readings_.motion_capture.value;
+        return fmt::format(
+            "the autopilot's pose is {:.0f} m and {:.0f} deg from the motion capture that it is "
+            "sent",
+            (estimate.p_WB_m - pose.p_WB_m).norm(),
+            degrees(estimate.q_WB.angularDistance(pose.q_WB)));
+    }
+    return offboard_.obstacle(clock_s());
 }
 
 }  // namespace limpet::px4

@@ -22,13 +22,15 @@ struct Px4Options {
     /// on without one for seconds more (its EKF2_NOAID_TOUT) and then descends blindly. Infinite
     /// where it has GPS.
     double aiding_limit_s = 0.5;
-    bool only_px4 = false;  ///< fails where it is the stand-in, or does not tell what it is
+    bool only_px4 = false;  ///< fails where it is the stand-in, or does not report what it is
     std::function<void(const std::string& text)> on_text;  ///< each STATUSTEXT
 };
 
 /// PX4, in simulation or on a board, in the place of the built-in autopilot: sensors and motors
 /// over HIL, set-points and estimate over offboard control. It has a clock of its own, which starts
-/// with it and goes on when a flight begins.
+/// with it and goes on when a flight begins. Before it is first armed, poses wait for its origin,
+/// and its own pose is held against those that it was sent: until they agree it has no estimate,
+/// and gets no set-points.
 class Px4Autopilot final : public autopilot::ExternalAutopilot {
 public:
     /// @param hil       outlives it
@@ -54,6 +56,8 @@ private:
     void look_who();
     [[nodiscard]] bool in_step() const;
     [[nodiscard]] bool tracker_silent(double time_s) const;
+    [[nodiscard]] bool awaits_origin() const;
+    [[nodiscard]] bool elsewhere() const;
     [[nodiscard]] bool speaks_version_1() const;
     [[nodiscard]] double clock_s() const { return 1e-6 * static_cast<double>(clock_usec_); }
 
@@ -64,13 +68,13 @@ private:
     mavlink::Offboard offboard_;
     mavlink::HilStatus status_ = mavlink::HilStatus::waiting;
     std::uint64_t clock_usec_ = 0;
-    Readings readings_;  ///< as told to it
+    Readings readings_;  ///< as sent to it
     PoseWatch watch_;
     bool flew_ = false;  ///< motors have been on
     double listened_s_ = -1.0;
-    double heard_s_ = -1.0;        ///< since when its estimate is heard
-    double listening_s_ = 0.0;     ///< waited for a lagging estimate, wall time
-    std::uint64_t told_usec_ = 0;  ///< of the last estimate, by the autopilot's clock
+    double received_since_s_ = -1.0;   ///< since when its estimate is received
+    double listening_s_ = 0.0;         ///< waited for a lagging estimate, wall time
+    std::uint64_t odometry_usec_ = 0;  ///< of the last estimate, by the autopilot's clock
     std::uint64_t texts_ = 0;
     std::optional<std::string_view> failure_;
 };

@@ -5,11 +5,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "limpet/core/errors.hpp"
@@ -22,6 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kAirframes = "airframes";
 constexpr const char* kScripts = "init.d-posix";
+constexpr const char* kConsole = "log.txt";
+constexpr std::string_view kFolder = "limpet_px4_run_";
 
 void write(const fs::path& path, const std::string& text) {
     std::ofstream file(path);
@@ -31,25 +37,28 @@ void write(const fs::path& path, const std::string& text) {
     }
 }
 
-/// A folder with the same in it, but for one name.
-void mirror(const fs::path& from, const fs::path& to, const std::string& but) {
+/// A folder with the same in it.
+/// @param but  a name that is left out; all that begin so where it ends in an underscore
+void mirror(const fs::path& from, const fs::path& to, std::string_view but) {
     fs::create_directory(to);
     for (const fs::directory_entry& entry : fs::directory_iterator(from)) {
-        if (entry.path().filename() != but) {
+        const std::string name = entry.path().filename().string();
+        if (!(but.ends_with('_') ? name.starts_with(but) : name == but)) {
             fs::create_symlink(entry.path(), to / entry.path().filename());
         }
     }
 }
 
 /// PX4's start-up files with the airframe among them.
-void lay_out(const fs::path& build, const fs::path& folder, const Px4Airframe& airframe) {
+void lay_out(const fs::path& build, const fs::path& folder, const Px4Airframe& airframe,
+             const std::vector<Px4Setting>& settings) {
     const fs::path etc = build / "etc";
     const fs::path airframes = folder / "etc" / kScripts / kAirframes;
     mirror(etc, folder / "etc", kScripts);
     mirror(etc / kScripts, folder / "etc" / kScripts, kAirframes);
-    mirror(etc / kScripts / kAirframes, airframes, px4_airframe_file_name(airframe));
-    write(airframes / px4_airframe_file_name(airframe),
-          px4_airframe_script(airframe, px4_settings(airframe)));
+    // PX4 takes the last of a number, whatever comes after it.
+    mirror(etc / kScripts / kAirframes, airframes, fmt::format("{}_", airframe.id));
+    write(airframes / px4_airframe_file_name(airframe), px4_airframe_script(airframe, settings));
 }
 
 std::string quoted(const std::string& text) {
@@ -77,6 +86,54 @@ std::string last_line(const fs::path& log) {
     return last;
 }
 
+/// Folders whose process was killed: nobody holds their lock. One that has just been made has none
+/// either, for a moment: a minute old it is nobody's.
+void sweep() {
+    constexpr auto kYoung = std::chrono::minutes(1);
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), ignored)) {
+        const fs::path& folder = entry.path();
+        if (!folder.filename().string().starts_with(kFolder) ||
+            !fs::is_directory(folder, ignored)) {
+            continue;
+        }
+        const auto made = fs::last_write_time(folder, ignored);
+        if (ignored || fs::file_time_type::clock::now() - made < kYoung) {
+            continue;
+        }
+        try {
+            const FolderLock nobodys(folder);
+            fs::remove_all(folder, ignored);
+        } catch (const InputError&) {  // another's, or somebody is at work in it
+        }
+    }
+}
+
+/// PX4's own logs below a folder, oldest first: it names them by date and time, or counts.
+std::vector<fs::path> logs_in(const fs::path& folder) {
+    std::vector<fs::path> logs;
+    std::error_code ignored;
+    for (auto entry = fs::recursive_directory_iterator(folder / "log", ignored);
+         !ignored && entry != fs::recursive_directory_iterator(); entry.increment(ignored)) {
+        if (entry->path().extension() == ".ulg") {
+            logs.push_back(entry->path());
+        }
+    }
+    std::sort(logs.begin(), logs.end());
+    return logs;
+}
+
+fs::path kept_log(const fs::path& folder, std::size_t i) {
+    return folder / (i == 0 ? "px4.ulg" : fmt::format("px4_{}.ulg", i + 1));
+}
+
+void copy_over(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    if (!fs::copy_file(from, to, fs::copy_options::overwrite_existing, error)) {
+        throw InputError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+    }
+}
+
 /// As sh runs it, in a group of its own: Ctrl-C is for us, which end it. The kernel ends it when
 /// the thread that started it dies, however that came about.
 pid_t run(const std::string& command, const fs::path& log) {
@@ -94,15 +151,17 @@ pid_t run(const std::string& command, const fs::path& log) {
 }  // namespace
 
 Px4Process::Folder::Folder() {
-    std::string name = (fs::temp_directory_path() / "limpet_px4_XXXXXX").string();
+    sweep();
+    std::string name = (fs::temp_directory_path() / fmt::format("{}XXXXXX", kFolder)).string();
     if (mkdtemp(name.data()) == nullptr) {
         throw InputError(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
     }
     path = name;
+    lock_.emplace(path);
 }
 
 Px4Process::Folder::~Folder() {
-    std::error_code ignored;  // temporary: whoever cleans up has the rest
+    std::error_code ignored;  // temporary: who cleans up has the rest
     fs::remove_all(path, ignored);
 }
 
@@ -117,7 +176,12 @@ Px4Process::Px4Process(const std::string& start, const Px4Airframe& airframe,
             !fs::is_directory(build / "etc" / kScripts / kAirframes, ignored)) {
             throw InputError(start + ": no PX4 built for simulation is there (bin/px4, etc)");
         }
-        lay_out(build, folder, airframe);
+        Px4Fitted fit{.settings = px4_settings(airframe), .left_out = {}};
+        if (const auto known = px4_facts_of(build)) {
+            fit = fitted(fit.settings, *known);
+        }
+        left_out_ = std::move(fit.left_out);
+        lay_out(build, folder, airframe, fit.settings);
         command_ = fmt::format(
             "PX4_LIMPET_STANDALONE=1 PX4_SYS_AUTOSTART={} exec {} -d -i {} -w {}", airframe.id,
             quoted(program.string()), instance.number, quoted(folder.string()));
@@ -127,15 +191,34 @@ Px4Process::Px4Process(const std::string& start, const Px4Airframe& airframe,
         command_ = replaced(replaced(start, "{instance}", std::to_string(instance.number)),
                             "{folder}", quoted(folder.string()));
     }
-    child_ = run(command_, folder / "log.txt");
+    child_ = run(command_, folder / kConsole);
 }
 
 Px4Process::~Px4Process() {
+    end();
+}
+
+void Px4Process::end() {
     if (child_ != 0) {
         // Its clock stands still once our sensors stop: it would not get through an orderly end.
         kill(-child_, SIGKILL);
         wait_for(child_);
+        child_ = 0;
     }
+}
+
+std::vector<fs::path> Px4Process::keep(const fs::path& folder) {
+    end();
+    std::error_code ignored;
+    for (std::size_t i = 0; fs::remove(kept_log(folder, i), ignored); ++i) {
+    }
+    std::vector<fs::path> kept = {folder / "px4.log"};
+    copy_over(folder_.path / kConsole, kept.front());
+    for (const fs::path& log : logs_in(folder_.path)) {
+        kept.push_back(kept_log(folder, kept.size() - 1));
+        copy_over(log, kept.back());
+    }
+    return kept;
 }
 
 void Px4Process::require_running() {
@@ -144,7 +227,7 @@ void Px4Process::require_running() {
         child_ = 0;
     }
     if (child_ == 0) {
-        const std::string last = last_line(folder_.path / "log.txt");
+        const std::string last = last_line(folder_.path / kConsole);
         throw InputError(fmt::format("{}: ended by itself{}", command_,
                                      last.empty() ? "" : ", its last line: " + last));
     }

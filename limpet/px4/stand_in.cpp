@@ -50,7 +50,7 @@ std::chrono::nanoseconds left_until(Clock::time_point end) {
 StandIn::StandIn(autopilot::AutopilotModel model, const StandInOptions& options)
     : options_(options),
       model_(std::move(model)),
-      // Out of range or of the wrong type it stays as it was, and the answer alone tells so.
+      // Out of range or of the wrong type it stays as it was, and the answer alone shows it.
       parameters_(
           served(wire_parameters(options_.parameters, model_.parameters)),
           [this](std::string_view name, double value) {
@@ -80,7 +80,7 @@ void StandIn::boot() {
     ground_station_ = false;
     sensors_ = 0;
     ++count_.boots;
-    // PX4 asks for the truth, and needs no answer
+    // PX4 requests the truth, and needs no answer
     constexpr float kTruthInterval_us = 5000.0F;
     (void)hil_.send(
         mavlink::CommandLong{.command = mavlink::MavCmd::set_message_interval,
@@ -100,7 +100,7 @@ bool StandIn::serve(std::chrono::nanoseconds slice) {
         }
         const auto frame = hil_.receive(left_until(end));
         if (hil_.generation() != generation_) {
-            continue;  // it went, and another may be there: what was heard belongs to a boot
+            continue;  // it went, and another may be there: what was received belongs to a boot
         }
         if (frame) {
             hear_simulator(*frame);
@@ -169,7 +169,7 @@ void StandIn::hear_companion(const mavlink::Frame& frame, mavlink::Link& link) {
         hear(flight_, *pose);
     } else if (const auto origin = decode<mavlink::SetGpsGlobalOrigin>(frame)) {
         if (origin->target_system == 0 || origin->target_system == options_.system) {
-            hear(flight_, *origin, options_.origin_unsettles_s);
+            hear(flight_, *origin, options_.origin_unsettles_s, options_.origin_throws_m);
             tell_origin(link);
         }
     } else if (const auto clocks = decode<mavlink::TimeSync>(frame)) {
@@ -182,12 +182,12 @@ void StandIn::hear_companion(const mavlink::Frame& frame, mavlink::Link& link) {
     }
 }
 
-/// @return whether there was something to tell
+/// @return whether there was something to report
 bool StandIn::tell_origin(mavlink::Link& link) {
-    if (flight_.global()) {
+    if (flight_.origin) {
         (void)link.send(*flight_.origin);
     }
-    return flight_.global();
+    return flight_.origin.has_value();
 }
 
 void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "limpet/ground_station/parameter_server.hpp"
@@ -32,6 +31,9 @@ struct StandInOptions {
     /// PX4 v1.16 does without its motion capture for a moment when its first origin comes after it,
     /// and may not be armed meanwhile: 3.4 s. v1.15: 0. Source: docs/px4.md "PX4 v1.16"
     double origin_unsettles_s = 0.0;
+    /// PX4's main since 2026-06-29 keeps the distance to its first origin as a bias of its motion
+    /// capture when that origin comes after it: 5,227,320 m north. v1.15, v1.16: 0.
+    double origin_throws_m = 0.0;
     StandInParameters parameters;
 };
 
@@ -52,8 +54,8 @@ struct StandInCount {
 ///   simulator  ◄───── HIL_ACTUATOR_CONTROLS ── stand-in ── telemetry ─────► companion
 ///              ─HIL_SENSOR, HIL_GPS, ODOMETRY─►         ◄── set-points, commands ──
 ///
-/// At each HIL_SENSOR it first hears all that has come over UDP, then computes, sends telemetry and
-/// answers last: in lockstep everything happens in one order, and a flight gives the same bytes
+/// At each HIL_SENSOR it first receives all that has come over UDP, then computes, sends telemetry
+/// and answers last: in lockstep everything happens in one order, and a flight gives the same bytes
 /// again. All decisions are of simulated time. A simulator that comes anew finds it freshly
 /// booted, its parameters kept; PX4 itself would have to be started again.
 class StandIn {
@@ -82,7 +84,7 @@ private:
     bool tell_origin(mavlink::Link& link);
     void hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,
                       mavlink::Link& link);
-    /// @return where it tells of itself
+    /// @return where it sends its telemetry
     [[nodiscard]] mavlink::Link& telemetry() { return onboard_ ? *onboard_ : hil_; }
 
     StandInOptions options_;

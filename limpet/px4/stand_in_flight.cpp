@@ -34,7 +34,7 @@ Quaternion level_attitude(const autopilot::AutopilotParameters& p, const Reading
     return Quaternion(R_WB).normalized();
 }
 
-/// @return where it is, once what the parameters want to be aided by has been heard
+/// @return where it is, once what the parameters want to be aided by has been received
 std::optional<Estimate> first_estimate(const autopilot::AutopilotParameters& p,
                                        const StandInFlight& flight) {
     const Readings& readings = flight.readings;
@@ -88,7 +88,7 @@ Setpoint wanted(const StandInFlight& flight) {
     Setpoint setpoint;
     setpoint.armed = flight.manners.armed();
     if (flight.manners.mode == FlightMode::offboard) {
-        setpoint.motion = flight.heard.motion;
+        setpoint.motion = flight.commanded.motion;
     } else if (flight.manners.in_air()) {
         setpoint.motion = flight.hold;
     }
@@ -103,7 +103,7 @@ mavlink::GpsGlobalOrigin at(const mavlink::GeographicOrigin& place, double time_
 
 void hear_motion(StandInFlight& flight, const auto& motion) {
     if (motion) {
-        flight.heard.motion = *motion;
+        flight.commanded.motion = *motion;
         flight.heard_s = flight.time_s;
     }
 }
@@ -148,9 +148,11 @@ void hear(StandInFlight& flight, const mavlink::HilGps& message, bool aids) {
     }
 }
 
-void hear(StandInFlight& flight, const mavlink::SetGpsGlobalOrigin& message, double unsettles_s) {
+void hear(StandInFlight& flight, const mavlink::SetGpsGlobalOrigin& message, double unsettles_s,
+          double throws_m) {
     if (flight.aligned && !flight.origin) {
         flight.unsettled_until_s = flight.time_s + unsettles_s;
+        flight.thrown_north_m = throws_m;
     }
     flight.origin = mavlink::GpsGlobalOrigin{.latitude = message.latitude,
                                              .longitude = message.longitude,
@@ -170,7 +172,11 @@ void hear(StandInFlight& flight, const mavlink::Odometry& message) {
 }
 
 void hear(StandInFlight& flight, const mavlink::SetPositionTargetLocalNed& message) {
-    hear_motion(flight, mavlink::position_set_point(message));
+    auto position = mavlink::position_set_point(message);
+    if (position) {
+        position->p_W_m.x() -= flight.thrown_north_m;
+    }
+    hear_motion(flight, position);
     hear_motion(flight, mavlink::velocity_set_point(message));
 }
 

@@ -21,17 +21,22 @@ struct StandInFlight {
     bool aligned = false;  ///< the estimator has been started
     autopilot::AutopilotState autopilot;
     Manners manners;
-    Setpoint heard;  ///< the last set-point
+    Setpoint commanded;  ///< the last set-point
     double heard_s = -std::numeric_limits<double>::infinity();
     PositionSetpoint hold;                           ///< where to be in the mode hold
     std::optional<mavlink::GpsGlobalOrigin> origin;  ///< of W
     double unsettled_until_s = 0.0;  ///< its position is no good for arming until then
-    double thrust = 0.0;             ///< collective asked for in the last step
+    double thrown_north_m = 0.0;     ///< its local position is off by so much
+    double thrust = 0.0;             ///< collective requested in the last step
     RotorCommand command;
 
     [[nodiscard]] bool valid() const { return aligned && autopilot.estimate.valid; }
-    /// Whether it has a place on earth, and is known to be somewhere about it.
-    [[nodiscard]] bool global() const { return aligned && origin.has_value(); }
+    /// As it tells it.
+    [[nodiscard]] Estimate local_estimate() const {
+        Estimate estimate = autopilot.estimate;
+        estimate.p_WB_m.x() += thrown_north_m;
+        return estimate;
+    }
 };
 
 /// A step: clock and IMU go on, the estimator runs, what is due happens, the vehicle is flown.
@@ -43,7 +48,9 @@ bool step(const autopilot::AutopilotModel& model, const StandInParameters& param
 void hear(StandInFlight& flight, const mavlink::HilGps& message, bool aids);
 /// @param unsettles_s  how long its position is no good for arming when it has been aligned before
 ///                     its first origin came
-void hear(StandInFlight& flight, const mavlink::SetGpsGlobalOrigin& message, double unsettles_s);
+/// @param throws_m     how far its local position is off from then on, likewise
+void hear(StandInFlight& flight, const mavlink::SetGpsGlobalOrigin& message, double unsettles_s,
+          double throws_m);
 /// A pose for the estimator; others than EKF2 uses are passed over. A stamp that is not of this
 /// clock, or older than half a second, counts as now: so does PX4 until its clock is in step.
 void hear(StandInFlight& flight, const mavlink::Odometry& message);

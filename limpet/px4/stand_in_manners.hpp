@@ -3,11 +3,12 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <string_view>
+#include <vector>
 
+#include "limpet/autopilot/parameters.hpp"
+#include "limpet/core/parameters.hpp"
 #include "limpet/mavlink/messages.hpp"
-#include "limpet/px4/stand_in_parameters.hpp"
 
 /// PX4's commander and land detector as far as perching meets them: who may arm, what is in flight,
 /// what disarms by itself, when offboard control is over. Measured with PX4 v1.15.1, px4.md
@@ -23,6 +24,23 @@
 /// By command: to disarmed from waiting and landed; by force from everywhere.
 namespace limpet::px4 {
 
+/// What of PX4's commander the stand-in flight controller honours; PX4's names, units, defaults.
+struct StandInParameters {
+    int FD_FAIL_P = 60;
+    int FD_FAIL_R = 60;
+    double COM_OF_LOSS_T = 1.0;
+    double COM_DISARM_PRFLT = 10.0;
+    double COM_DISARM_LAND = 2.0;
+};
+
+[[nodiscard]] const ParameterTable<StandInParameters>& stand_in_table();
+
+/// All that can be read and set over the wire, as PX4 numbers it, by name: the commander's, and
+/// those of the built-in autopilot that PX4 has too.
+/// @param commander  outlives what is returned, as `autopilot` does
+[[nodiscard]] std::vector<BoundParameter> wire_parameters(
+    StandInParameters& commander, autopilot::AutopilotParameters& autopilot);
+
 enum class ArmingState {
     disarmed,
     waiting,  ///< armed, no thrust yet
@@ -37,7 +55,7 @@ enum class FlightMode {
 
 using CommandResult = mavlink::MavResult::Value;
 
-/// What is said aloud in a step, for STATUSTEXT; literals.
+/// What is announced in a step, for STATUSTEXT; literals.
 struct SpokenTexts {
     static constexpr std::size_t kMost = 8;
     std::array<std::string_view, kMost> texts;
@@ -53,7 +71,7 @@ struct SpokenTexts {
 /// What the rules look at.
 struct Situation {
     double time_s = 0.0;
-    double thrust = 0.0;       ///< collective asked for, 0..1
+    double thrust = 0.0;       ///< collective requested, 0..1
     double set_point_s = 0.0;  ///< when the last set-point came
     double roll_rad = 0.0;
     double pitch_rad = 0.0;

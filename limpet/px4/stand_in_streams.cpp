@@ -21,7 +21,7 @@ mavlink::AttitudeQuaternion attitude(const StandInFlight& flight) {
 }
 
 void send(std::uint32_t id, const StandInFlight& flight, mavlink::Link& link) {
-    const Estimate& estimate = flight.autopilot.estimate;
+    const Estimate estimate = flight.local_estimate();
     const double time_s = flight.time_s;
     switch (id) {
         case mavlink::Heartbeat::kId: (void)link.send(heartbeat(flight)); break;

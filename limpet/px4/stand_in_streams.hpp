@@ -8,7 +8,7 @@
 #include "limpet/mavlink/link.hpp"
 #include "limpet/px4/stand_in_flight.hpp"
 
-/// What the stand-in tells of itself, at rates that a peer may change. Simulated time.
+/// What the stand-in reports of itself, at rates that a peer may change. Simulated time.
 namespace limpet::px4 {
 
 /// Rates of PX4's onboard mode where px4.md "Offboard" or a peer does not say otherwise.
@@ -27,7 +27,7 @@ struct TelemetryStreams {
 bool set_interval(TelemetryStreams& streams, double id, double interval_us);
 
 /// Sends what is due.
-/// @param says_texts  also what the manners have to say; PX4 tells it to ground stations alone.
+/// @param says_texts  also what the manners have to say; PX4 sends it to ground stations alone.
 ///                    Cleared either way
 void send_due(TelemetryStreams& streams, StandInFlight& flight, mavlink::Link& link,
               bool says_texts);

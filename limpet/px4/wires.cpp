@@ -13,7 +13,7 @@
 namespace limpet::px4 {
 namespace {
 
-/// A ground station's address on the network, as QGroundControl has it: PX4 tells it texts.
+/// A ground station's address on the network, as QGroundControl has it: PX4 sends it texts.
 constexpr std::uint8_t kSystem = 255;
 
 std::unique_ptr<mavlink::Link> open(std::unique_ptr<wire::Transport> wire) {

@@ -30,7 +30,7 @@ struct Px4Addresses {
     double aiding_limit_s = 0.5;  ///< Px4Options'
 };
 
-/// What whoever opens the wires has to do with them; empty members do nothing.
+/// What who opens the wires has to do with them; empty members do nothing.
 struct Px4WireWatch {
     std::function<std::unique_ptr<wire::Transport>(std::unique_ptr<wire::Transport>)> tap =
         {};  ///< of the HIL wire

@@ -21,7 +21,7 @@ int count_processors() {
     cpu_set_t mine;
     CPU_ZERO(&mine);
     if (sched_getaffinity(0, sizeof mine, &mine) != 0) {
-        CPU_SET(0, &mine);  // a machine of more than 1024: the user says --jobs
+        CPU_SET(0, &mine);  // a machine of more than 1024: the user gives --jobs
     }
     MPI_Comm machine = MPI_COMM_NULL;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
@@ -39,7 +39,7 @@ int count_processors() {
     return std::max(1, CPU_COUNT(&mine) / std::max(1, sharers));
 }
 
-/// One thread calls MPI, and asks whether something has come rather than wait for it: Open MPI's
+/// One thread calls MPI, and polls for messages rather than wait for them: Open MPI's
 /// waiting keeps a processor busy. Errors end all ranks, as is MPI's default.
 class MpiLink final : public RankLink {
 public:

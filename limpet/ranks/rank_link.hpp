@@ -36,8 +36,8 @@ public:
     virtual void leave() = 0;
 };
 
-/// What the module that brings MPI is asked for by its name, so that a program that is linked to no
-/// MPI can do without. May exit the process where MPI cannot start.
+/// The function of the module that brings MPI, found by its name, so that a program that is linked
+/// to no MPI can do without. May exit the process where MPI cannot start.
 using OpenRankLink = RankLink*();
 inline constexpr const char* kOpenRankLink = "limpet_open_mpi_link";
 

@@ -21,7 +21,7 @@ public:
     Worker(const campaign::Campaign& campaign, int jobs)
         : campaign_(campaign), ahead_(kSpareRuns * static_cast<std::size_t>(jobs)) {}
 
-    [[nodiscard]] std::optional<std::uint32_t> next() override {
+    [[nodiscard]] std::optional<campaign::RunToFly> next() override {
         std::unique_lock lock(mutex_);
         changed_here_.notify_one();
         assigned_.wait(lock, [this] { return !runs_.empty() || last_ || stopped_; });
@@ -30,7 +30,7 @@ public:
         }
         const std::uint32_t run = runs_.front();
         runs_.pop_front();
-        return run;
+        return campaign::RunToFly{row_to_fly(campaign_, run), {}};
     }
 
     void land(const campaign::RunRow& row) override {
@@ -49,7 +49,7 @@ public:
         changed_here_.notify_one();
     }
 
-    /// What there is to tell rank 0; none: nothing.
+    /// The next message to rank 0; none: there is nothing to report.
     [[nodiscard]] std::optional<std::string> news() {
         const std::lock_guard lock(mutex_);
         if (!failed_.empty()) {
@@ -148,16 +148,16 @@ bool handle(const RankLink::Message& message, Worker& worker, std::atomic<bool>&
     return word == Word::shut_down;
 }
 
-/// Until rank 0 says that it is over.
+/// Until rank 0 shuts this rank down.
 void exchange(RankLink& link, Worker& worker, const campaign::Fliers& fliers,
               std::atomic<bool>& stop, const std::atomic<bool>* stop_here) {
     Patience patience;
-    bool said_stop = false;
-    bool said_bye = false;
+    bool sent_stop = false;
+    bool sent_bye = false;
     while (true) {
-        const bool done = fliers.done();  // before what they brought is asked for
-        if (stop_here != nullptr && *stop_here && !said_stop) {
-            said_stop = true;
+        const bool done = fliers.done();  // before their rows are taken
+        if (stop_here != nullptr && *stop_here && !sent_stop) {
+            sent_stop = true;
             stop = true;
             worker.stop();
             link.send(0, Writer(Word::stop).bytes());
@@ -165,8 +165,8 @@ void exchange(RankLink& link, Worker& worker, const campaign::Fliers& fliers,
         if (const auto news = worker.news()) {
             link.send(0, *news);
             patience.traffic();
-        } else if (done && !said_bye) {
-            said_bye = true;
+        } else if (done && !sent_bye) {
+            sent_bye = true;
             link.send(0, Writer(Word::bye).bytes());
         }
         if (const auto message = link.receive()) {
@@ -187,7 +187,7 @@ void run_worker(RankLink& link, const campaign::Campaign& campaign, int jobs,
     const campaign::Fliers fliers(jobs, campaign, worker, &stop);
     try {
         exchange(link, worker, fliers, stop, stop_here);
-    } catch (...) {  // its threads must end before it can be told
+    } catch (...) {  // its threads must end before it can be reported
         stop = true;
         worker.stop();
         throw;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "limpet/campaign/columns.hpp"
-#include "limpet/campaign/fliers.hpp"
 #include "limpet/campaign/ledger.hpp"
 #include "limpet/ranks/rank_message.hpp"
 
@@ -17,18 +16,18 @@ void tell_all(RankLink& link, Word word) {
     }
 }
 
-/// @return what each rank said first, in their order
+/// @return each rank's first message, in their order
 std::vector<std::string> hellos(RankLink& link) {
-    std::vector<std::string> said(static_cast<std::size_t>(link.ranks()));
+    std::vector<std::string> first(static_cast<std::size_t>(link.ranks()));
     for (int rank = 1; rank < link.ranks(); ++rank) {
         RankLink::Message message = next_message(link);
-        said.at(static_cast<std::size_t>(message.from)) = std::move(message.bytes);
+        first.at(static_cast<std::size_t>(message.from)) = std::move(message.bytes);
     }
-    return said;
+    return first;
 }
 
 /// @return why a rank cannot fly with rank 0; empty: it can
-std::string objection(int rank, const std::string& hello, const campaign::Identity& ours) {
+std::string objection(int rank, const std::string& hello, const campaign::Identity& own) {
     Reader reader(hello);
     const Word word = reader.word();
     const auto who = fmt::format("rank {} on {}", rank, reader.get<std::string>());
@@ -38,7 +37,7 @@ std::string objection(int rank, const std::string& hello, const campaign::Identi
     const auto campaign = reader.get<std::string>();
     const auto scenarios = reader.get<std::string>();
     const char* what = campaign::difference(
-        ours, {.campaign = campaign, .scenarios = scenarios, .version = reader.get<std::string>()});
+        own, {.campaign = campaign, .scenarios = scenarios, .version = reader.get<std::string>()});
     return what == nullptr ? ""
                            : fmt::format(
                                  "{}: {} is not the same as rank 0's on this machine; all "
@@ -71,11 +70,11 @@ public:
             case Word::shut_down:
             case Word::assign: break;
         }
-        throw InternalError("a rank says what only rank 0 may");
+        throw InternalError("a rank sends what only rank 0 may");
     }
 
     [[nodiscard]] bool all_gone() const { return gone_ + 1 == link_.ranks(); }
-    /// Some rank was told to stop, by a signal.
+    /// Some rank was stopped by a signal.
     [[nodiscard]] bool stop_wanted() const { return stop_wanted_; }
 
 private:
@@ -101,11 +100,11 @@ private:
     void assign(int to, std::uint32_t wanted) {
         std::vector<std::uint32_t> runs;
         while (runs.size() < wanted) {
-            const auto run = ledger_.next();
-            if (!run) {
+            const auto next = ledger_.next();
+            if (!next) {
                 break;
             }
-            runs.push_back(*run);
+            runs.push_back(next->row.run);
         }
         Writer runs_message(Word::assign);
         runs_message.put(runs.size() < wanted).put(static_cast<std::uint32_t>(runs.size()));
@@ -125,13 +124,13 @@ private:
 }  // namespace
 
 void gather_ranks(RankLink& link, const campaign::Campaign* campaign, const std::string& why_not) {
-    const std::vector<std::string> said = hellos(link);
+    const std::vector<std::string> first = hellos(link);
     if (campaign == nullptr) {
         throw InputError(why_not);
     }
-    const campaign::Identity ours = campaign::identity_of(*campaign);
+    const campaign::Identity own = campaign::identity_of(*campaign);
     for (int rank = 1; rank < link.ranks(); ++rank) {
-        const std::string against = objection(rank, said.at(static_cast<std::size_t>(rank)), ours);
+        const std::string against = objection(rank, first.at(static_cast<std::size_t>(rank)), own);
         if (!against.empty()) {
             throw InputError(against);
         }
@@ -146,9 +145,9 @@ void dismiss_ranks(RankLink& link) {
 campaign::Progress run_among_ranks(campaign::Results& results, int jobs,
                                    const campaign::CampaignWatch& watch, RankLink& link) {
     std::atomic<bool> stop = false;
-    const campaign::CampaignWatch ours{
+    const campaign::CampaignWatch own{
         .on_progress = watch.on_progress, .stop = &stop, .on_row = watch.on_row};
-    campaign::Ledger ledger(results, ours, link.ranks());
+    campaign::Ledger ledger(results, own, {}, link.ranks());
     Coordinator coordinator(link, results.campaign(), ledger);
     const campaign::Fliers fliers(jobs, results.campaign(), ledger, &stop);
     tell_all(link, Word::begin);
@@ -161,7 +160,7 @@ campaign::Progress run_among_ranks(campaign::Results& results, int jobs,
         if (const auto message = link.receive()) {
             try {
                 coordinator.handle(*message);
-            } catch (...) {  // threads must end before it can be told
+            } catch (...) {  // threads must end before it can be reported
                 stop = true;
                 throw;
             }

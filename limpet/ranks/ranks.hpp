@@ -6,9 +6,9 @@
 #include "limpet/campaign/workers.hpp"
 #include "limpet/ranks/rank_link.hpp"
 
-// One campaign, many processes. Rank 0, the coordinator, assigns runs, a few at a time to whoever
-// asks, flies some itself, and alone writes the results. The other ranks, the workers, send it
-// their rows. A faster worker asks more often. The rows do not depend on any of it.
+// One campaign, many processes. Rank 0, the coordinator, assigns runs, a few at a time on
+// request, flies some itself, and alone writes the results. The other ranks, the workers, send it
+// their rows. A faster worker requests more often. The rows do not depend on any of it.
 namespace limpet::ranks {
 
 /// Rank 0: waits for all to say what they were started for.

@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/rare/rare_campaign.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <mutex>
-#include <new>
-#include <system_error>
-#include <thread>
 
-#include "limpet/core/errors.hpp"
-#include "limpet/plant/lane_group.hpp"
+#include "limpet/campaign/fliers.hpp"
+#include "limpet/rare/rare.hpp"
 
 namespace limpet::rare {
 namespace {
 
 constexpr double kFarthest = 6.0;  ///< standard deviations: beyond is rarer than what is looked for
 
-/// Flies what a step of the search asks for, the same in every thread.
-class Judge {
+/// Flies the runs of a step of the search.
+class Judge final : public campaign::RunSource {
 public:
     Judge(campaign::Results& results, const RareSearch& search, int jobs, const RareWatch& watch)
         : results_(results),
@@ -35,10 +29,10 @@ public:
             progress_.finished = 0;
         }
         progress_.probability = so_far.probability();
-        recall(runs);
-        next_ = 0;
+        step_ = runs;
+        recall();
         if (!missing_.empty()) {
-            fly_all();
+            fly_all(jobs_, results_.campaign(), *this);
         }
         if (failed_) {
             std::rethrow_exception(failed_);
@@ -46,76 +40,19 @@ public:
         return next_ == missing_.size();
     }
 
-    void conclude(RareFlown& flown) const {
-        flown.flown = progress_.flown;
-        flown.elapsed_s = progress_.elapsed_s;
-        flown.faults = faults_;
-    }
-
-private:
-    void recall(std::span<RareSample> runs) {
-        missing_.clear();
-        for (RareSample& sample : runs) {
-            if (std::binary_search(finished_.begin(), finished_.end(), sample.run)) {
-                const campaign::RunRow row = results_.row(sample.run);
-                require_run_of(results_, row, sample);
-                judge(sample, row);
-            } else {
-                missing_.push_back(&sample);
-            }
-        }
-    }
-
-    void fly_all() {
-        const auto fly_on = [this] { fly_lanes(); };
-        std::vector<std::jthread> workers;
-        try {
-            while (workers.size() + 1 < static_cast<std::size_t>(jobs_)) {
-                workers.emplace_back(fly_on);
-            }
-        } catch (const std::system_error&) {  // those there are will do
-        } catch (const std::bad_alloc&) {     // nor is there memory for more
-        }
-        fly_on();
-    }
-
-    void fly_lanes() noexcept {
-        try {
-            plant::fly_side_by_side([this] { fly_some(); });
-        } catch (...) {
-            fail(std::current_exception());
-        }
-    }
-
-    void fail(std::exception_ptr why) noexcept {
+    [[nodiscard]] std::optional<campaign::RunToFly> next() override {
         const std::lock_guard lock(mutex_);
-        failed_ = failed_ ? failed_ : why;
-    }
-
-    void fly_some() noexcept {
-        try {
-            while (RareSample* sample = next()) {
-                const campaign::Campaign& campaign = results_.campaign();
-                campaign::RunRow row;
-                row.run = sample->run;
-                row.seed = campaign.seed;
-                row.sample = sample_at(campaign.keys, sample->point.normals);
-                fly_row(campaign, row, sample->point.noise);
-                land(*sample, row);
-            }
-        } catch (...) {
-            fail(std::current_exception());
+        if (failed_ || (watch_.stop != nullptr && *watch_.stop) || next_ == missing_.size()) {
+            return std::nullopt;
         }
+        const RareSample& sample = *missing_[next_++];
+        return campaign::RunToFly{row_to_fly(results_.campaign(), sample.run, sample.point.normals),
+                                  sample.point.noise};
     }
 
-    [[nodiscard]] RareSample* next() {
+    void land(const campaign::RunRow& row) override {
         const std::lock_guard lock(mutex_);
-        const bool stop = failed_ || (watch_.stop != nullptr && *watch_.stop);
-        return stop || next_ == missing_.size() ? nullptr : missing_[next_++];
-    }
-
-    void land(RareSample& sample, const campaign::RunRow& row) {
-        const std::lock_guard lock(mutex_);
+        RareSample& sample = step_[row.run - step_.front().run];
         add_rare(results_, search_.event, sample, row);
         judge(sample, row);
         ++progress_.flown;
@@ -126,12 +63,40 @@ private:
         }
     }
 
+    void fail(std::exception_ptr why) noexcept override {
+        const std::lock_guard lock(mutex_);
+        failed_ = failed_ ? failed_ : why;
+    }
+
+    [[nodiscard]] RareFlown flown(SubsetResult result) const {
+        return {std::move(result), progress_.flown, progress_.elapsed_s};
+    }
+
+private:
+    /// Judges what was flown before; the rest of the step is missing.
+    void recall() {
+        next_ = 0;
+        missing_.clear();
+        for (RareSample& sample : step_) {
+            if (std::binary_search(finished_.begin(), finished_.end(), sample.run)) {
+                const campaign::RunRow row = results_.row(sample.run);
+                if (row.sample != sample_at(results_.campaign().keys, sample.point.normals)) {
+                    campaign::refuse(results_.database(),
+                                     "is damaged: run {} is not the one that the search flies",
+                                     row.run);
+                }
+                judge(sample, row);
+            } else {
+                missing_.push_back(&sample);
+            }
+        }
+    }
+
     void judge(RareSample& sample, const campaign::RunRow& row) {
         sample.fall = search_.event.fall(row);
         sample.event = search_.event.happened(row);
         ++progress_.finished;
         progress_.events += sample.event ? 1U : 0U;
-        faults_ += row.outcome == campaign::kFault ? 1U : 0U;
     }
 
     campaign::Results& results_;
@@ -141,24 +106,23 @@ private:
     const std::vector<std::uint32_t> finished_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     RareProgress progress_;
-    std::uint32_t faults_ = 0;
+    std::span<RareSample> step_;
     std::vector<RareSample*> missing_;  ///< of the step
     std::size_t next_ = 0;              ///< of them
     std::mutex mutex_;
     std::exception_ptr failed_ = nullptr;
 };
 
+SubsetPlan plan_of(const campaign::Campaign& campaign, const RareSearch& search) {
+    return {.seed = campaign.seed,
+            .inputs = drawn_keys(campaign.keys),
+            .level_runs = search.level_runs};
+}
+
 }  // namespace
 
 void require_searchable(const campaign::Campaign& campaign) {
-    for (const campaign::VariedKey& key : campaign.keys) {
-        if (key.spread == campaign::Spread::grid && key.values.size() > 1) {
-            throw InputError(fmt::format(
-                "{}: parameters.{}: a grid has no probabilities: for --rare write choice in its "
-                "place, or a single value",
-                key.place, key.key));
-        }
-    }
+    require_no_grid(campaign.keys, "--rare");
     std::vector<double> normals(drawn_keys(campaign.keys), 0.0);
     std::size_t drawn = 0;
     for (const campaign::VariedKey& key : campaign.keys) {
@@ -184,11 +148,16 @@ void require_searchable(const campaign::Campaign& campaign) {
 RareFlown fly_rare(campaign::Results& results, const RareSearch& search, int jobs,
                    const RareWatch& watch) {
     Judge judge(results, search, jobs, watch);
-    RareFlown flown;
-    flown.result = subset_simulation(plan_of(results.campaign(), search), std::ref(judge));
-    judge.conclude(flown);
+    SubsetResult result = subset_simulation(plan_of(results.campaign(), search), std::ref(judge));
     results.finish();
-    return flown;
+    return judge.flown(std::move(result));
+}
+
+SubsetResult evaluate_rare(campaign::Results& results, const RareSearch& search) {
+    const std::atomic<bool> stop = true;  // nothing flies
+    const RareWatch watch{.on_progress = {}, .stop = &stop};
+    Judge judge(results, search, 1, watch);
+    return subset_simulation(plan_of(results.campaign(), search), std::ref(judge));
 }
 
 }  // namespace limpet::rare

@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "limpet/campaign/success.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
@@ -72,11 +71,11 @@ void guide_outcome(const RareGuide& guide, RareEvent& event) {
         event.figure = event.rising ? guide.rising : guide.falling;
         require_figure(event.rising ? "--rising" : "--falling", event.figure);
     } else if (!guide_by_itself(*event.outcome, event)) {
-        throw InputError(
-            fmt::format("--rare {}: no metric tells by itself how near a flight came to it: name "
-                        "one with --falling or --rising, as in --falling cup_margin_min_N, or give "
-                        "a threshold, as in --rare 'cup_margin_min_N<0'",
-                        event.text));
+        throw InputError(fmt::format(
+            "--rare {}: no metric measures by itself how near a flight came to it: name "
+            "one with --falling or --rising, as in --falling cup_margin_min_N, or give "
+            "a threshold, as in --rare 'cup_margin_min_N<0'",
+            event.text));
     }
 }
 
@@ -158,7 +157,7 @@ RareEvent parse_rare_event(const std::string& text, const RareGuide& guide,
     require_figure(option, name);
     if (!guide.falling.empty() || !guide.rising.empty()) {
         throw InputError(
-            fmt::format("{} {}: says which metric; --falling and --rising are for outcomes", option,
+            fmt::format("{} {}: names the metric; --falling and --rising are for outcomes", option,
                         event.text));
     }
     event.figure = name;

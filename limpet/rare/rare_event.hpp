@@ -20,7 +20,7 @@ struct RareEvent {
 
     /// NaN: did not come to pass.
     [[nodiscard]] double value(const campaign::RunRow& row) const;
-    /// What RareSample::fall says: falls towards the event, infinite where there is no value.
+    /// RareSample::fall: falls towards the event, infinite where there is no value.
     [[nodiscard]] double fall(const campaign::RunRow& row) const;
     [[nodiscard]] bool happened(const campaign::RunRow& row) const;
     /// The figure's value at a fall.
@@ -37,7 +37,7 @@ struct RareGuide {
 [[nodiscard]] bool is_figure(std::string_view name);
 
 /// @param text    an outcome, or a figure with <, <=, > or >= and a number
-/// @param guide   of an outcome; failed_to_seal and timed_out have one of their own
+/// @param guide   of an outcome; failed_to_seal and timed_out have a default
 /// @param option  that the text was given to, for messages
 /// @throws InputError one line: what is unknown and what is near, or what is missing
 [[nodiscard]] RareEvent parse_rare_event(const std::string& text, const RareGuide& guide = {},

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/rare/rare_summary.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,6 +8,9 @@
 #include "limpet/campaign/summary.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/draw/chart.hpp"
+#include "limpet/draw/colours.hpp"
+#include "limpet/rare/rare.hpp"
 
 namespace limpet::rare {
 namespace {
@@ -20,10 +21,6 @@ constexpr const char* kEndings[] = {"estimated", "too_rare", "stuck", "unfinishe
 
 std::string_view ending_of(RareEnding ending) {
     return kEndings[static_cast<std::size_t>(ending)];
-}
-
-RareJson finite(double value) {
-    return std::isfinite(value) ? RareJson(value) : RareJson(nullptr);
 }
 
 std::string threshold_text(const RareSummary& summary, const SubsetLevel& level) {
@@ -99,13 +96,13 @@ void add_likeliest(std::string& text, const RareSummary& summary) {
 }
 
 RareJson json_of(const RareSummary& summary, const SubsetLevel& level) {
-    return {{"threshold", finite(summary.event.value_at(level.threshold))},
+    return {{"threshold", summary.event.value_at(level.threshold)},
             {"samples", level.samples},
             {"reached", level.reached},
             {"share", level.share()},
             {"coefficient_of_variation", std::sqrt(level.variation2)},
-            {"acceptance", finite(level.acceptance)},
-            {"step", finite(level.step)}};
+            {"acceptance", level.acceptance},
+            {"step", level.step}};
 }
 
 RareJson likeliest_json(const RareSummary& summary) {
@@ -120,7 +117,7 @@ RareJson likeliest_json(const RareSummary& summary) {
     return {{"run", summary.likeliest->run},
             {"distance_sigma", summary.result.likeliest_distance},
             {"outcome", summary.likeliest->outcome},
-            {"value", finite(summary.event.value(*summary.likeliest))},
+            {"value", summary.event.value(*summary.likeliest)},
             {"inputs", inputs},
             {"state_hash", summary.likeliest->state_hash}};
 }
@@ -166,7 +163,9 @@ std::string rare_text(const RareSummary& summary) {
 std::string rare_json(const RareSummary& summary) {
     const SubsetResult& result = summary.result;
     const bool estimated = result.ending == RareEnding::estimated;
-    const auto if_estimated = [&](double value) { return estimated ? finite(value) : RareJson(); };
+    const auto if_estimated = [&](double value) {
+        return estimated ? RareJson(value) : RareJson();
+    };
     RareJson levels = RareJson::array();
     for (const SubsetLevel& level : result.levels) {
         levels.push_back(json_of(summary, level));
@@ -174,7 +173,7 @@ std::string rare_json(const RareSummary& summary) {
     RareJson curve = RareJson::array();
     for (const RarePlace& place : result.curve) {
         const campaign::Interval interval = place.interval();
-        curve.push_back({{"value", finite(summary.event.value_at(place.fall))},
+        curve.push_back({{"value", summary.event.value_at(place.fall)},
                          {"probability", place.probability},
                          {"low", interval.low},
                          {"high", interval.high}});
@@ -202,6 +201,45 @@ std::string rare_json(const RareSummary& summary) {
         {"curve", curve},
         {"likeliest", likeliest_json(summary)}};
     return json.dump(2, ' ', false, RareJson::error_handler_t::replace);
+}
+
+std::vector<std::filesystem::path> draw_rare(const RareSummary& summary,
+                                             const std::filesystem::path& folder) {
+    const SubsetResult& result = summary.result;
+    if (result.curve.empty()) {
+        return {};
+    }
+    const RareEvent& event = summary.event;
+    draw::ChartSeries middle{.colour = draw::colours::kDarkBlue};
+    draw::ChartSeries low{
+        .name = "95 %", .mark = draw::ChartSeries::Mark::dashes, .colour = draw::colours::kOrange};
+    draw::ChartSeries high{.mark = draw::ChartSeries::Mark::dashes,
+                           .colour = draw::colours::kOrange};
+    for (const RarePlace& place : result.curve) {
+        const campaign::Interval interval = place.interval();
+        const double x = event.value_at(place.fall);
+        middle.add(x, place.probability);
+        low.add(x, interval.low);
+        high.add(x, interval.high);
+    }
+    draw::ChartPanel panel{.x_label = event.figure,
+                           .y_label = fmt::format("probability of {} {}",
+                                                  event.rising ? "more than" : "less than", "it"),
+                           .series = {low, high, middle},
+                           .log_y = true};
+    if (result.ending == RareEnding::estimated) {
+        panel.levels = {{result.probability(), event.text}};
+    }
+    if (!event.outcome) {
+        panel.moments = {{event.limit, event.text}};
+    }
+    const draw::Chart chart{
+        .title = summary.name + ": " + event.text,
+        .subtitle =
+            fmt::format("{} flights of {}, seed {}; {} level{}", summary.flown, summary.scenario,
+                        summary.seed, result.levels.size(), result.levels.size() == 1 ? "" : "s"),
+        .panels = {panel}};
+    return draw_chart(chart, "rare", folder).files;
 }
 
 }  // namespace limpet::rare

@@ -23,16 +23,11 @@ constexpr double kNextPlace = 0.75;         ///< of the curve: its share of the 
 using Chain = std::vector<RareSample>;
 using Chains = std::vector<Chain>;
 
-/// A noise that nothing has drawn yet; whole numbers that a double holds.
-std::uint64_t fresh_seed(RandomStream& random) {
-    return static_cast<std::uint64_t>(random.uniform() * 0x1.0p53);
-}
-
 RareSample first_sample(const SubsetPlan& plan, std::uint32_t run) {
     RandomStream random(plan.seed, run, Stream::scenario);
     RareSample sample;
     sample.run = sample.parent = sample.ancestor = sample.chain = run;
-    sample.point.noise = {{fresh_seed(random), 1.0}};
+    sample.point.noise = {{campaign::noise_seed(random), 1.0}};
     for (std::size_t i = 0; i < plan.inputs; ++i) {
         sample.point.normals.push_back(random.normal());
     }
@@ -40,8 +35,8 @@ RareSample first_sample(const SubsetPlan& plan, std::uint32_t run) {
 }
 
 /// Reversible with respect to independent standard normals, the noise's among them.
-RarePoint beside(const RarePoint& point, const std::vector<double>& spread, double step,
-                 RandomStream& random) {
+RarePoint near(const RarePoint& point, const std::vector<double>& spread, double step,
+               RandomStream& random) {
     const auto keeps = [](double moves) { return std::sqrt(1.0 - moves * moves); };
     RarePoint next = point;
     const double noise_moves = std::min(1.0, step);
@@ -51,7 +46,7 @@ RarePoint beside(const RarePoint& point, const std::vector<double>& spread, doub
     if (noise_moves == 1.0) {
         next.noise.clear();
     }
-    next.noise.push_back({fresh_seed(random), noise_moves});
+    next.noise.push_back({campaign::noise_seed(random), noise_moves});
     for (std::size_t i = 0; i < spread.size(); ++i) {
         const double moves = std::min(1.0, step * spread[i]);
         next.normals[i] = keeps(moves) * next.normals[i] + moves * random.normal();
@@ -210,7 +205,7 @@ private:
                 next.parent = parent.run;
                 next.ancestor = parent.ancestor;
                 RandomStream random(plan_.seed, next.run, Stream::scenario);
-                next.point = beside(parent.point, spread, step_, random);
+                next.point = near(parent.point, spread, step_, random);
             }
             if (!judge(runs)) {
                 return false;

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "limpet/campaign/sampling.hpp"
 #include "limpet/campaign/statistics.hpp"
-#include "limpet/core/random.hpp"
 
 namespace limpet::rare {
 
@@ -28,7 +28,7 @@ struct RareSample {
     std::uint32_t run = 0;     ///< its number, from 0 in the order of the search
     std::uint32_t level = 0;   ///< 0: drawn as a campaign draws
     std::uint32_t chain = 0;   ///< of its level
-    std::uint32_t parent = 0;  ///< the run beside which it was proposed; itself on level 0
+    std::uint32_t parent = 0;  ///< the run near which it was proposed; itself on level 0
     RarePoint point;
     /// Falls towards the event, and is no higher at the event than anywhere else; infinite where
     /// the flight has no such figure.
@@ -62,7 +62,7 @@ enum class RareEnding {
     estimated,  ///< the last level's threshold is the event
     too_rare,   ///< less probable than the plan's least
     stuck,      ///< too few runs come any nearer: the figure is not there, or does not fall on
-    stopped,    ///< by whoever judges
+    stopped,    ///< by the judge
 };
 
 /// Probability of coming as near to the event as `fall`, or nearer.
@@ -103,7 +103,7 @@ struct SubsetResult {
 using RareJudge = std::function<bool(std::span<RareSample> runs, const SubsetResult& so_far)>;
 
 /// Subset simulation in the space of inputs and noise, both moved by conditional sampling: a
-/// proposal stands as far beside its parent as makes 44 % of them stay within the level. All chains
+/// proposal stands as far from its parent as makes 44 % of them stay within the level. All chains
 /// of a level take their steps together. Depends on the plan and the judge alone.
 /// Sources: Au and Beck, Probabilistic Engineering Mechanics 16 (2001) 263; Papaioannou, Betz,
 /// Zwirglmaier and Straub, Prob. Eng. Mech. 41 (2015) 89; lineages: Lee and Whiteley, Biometrika

@@ -22,8 +22,8 @@ namespace limpet::record {
 /// Source: OMG DDS-XTYPES 1.3, 7.4.1 and 7.6.2
 class Cdr {
 public:
-    /// @param room  holds the whole message
-    explicit Cdr(std::span<char> room) : room_(room) {
+    /// @param space  holds the whole message
+    explicit Cdr(std::span<char> space) : space_(space) {
         constexpr char kPlainLittleEndian[] = {0, 1, 0, 0};
         append(kPlainLittleEndian, sizeof kPlainLittleEndian);
     }
@@ -54,15 +54,15 @@ private:
         constexpr char kZeros[sizeof(double)] = {};
         append(kZeros, (to - (size_ - kEncapsulation) % to) % to);
     }
-    /// @throws InternalError where it does not fit: rooms are made for the largest message of a
+    /// @throws InternalError where it does not fit: spaces are made for the largest message of a
     /// channel
     void append(const void* bytes, std::size_t count) {
-        require(count <= room_.size() - size_, "a recorded message fits into its room");
-        std::memcpy(room_.data() + size_, bytes, count);
+        require(count <= space_.size() - size_, "a recorded message fits into its space");
+        std::memcpy(space_.data() + size_, bytes, count);
         size_ += count;
     }
 
-    std::span<char> room_;
+    std::span<char> space_;
     std::size_t size_ = 0;
 };
 
@@ -150,8 +150,8 @@ void MessageWriter::write(std::uint16_t channel, double time_s, const Fields&...
     (put(cdr, fields), ...);
     const mcap::ByteView bytes(reinterpret_cast<const std::uint8_t*>(buffer_.data()), cdr.size());
     file_.write(channel, static_cast<std::uint64_t>(time_ns), bytes);
-    if (beside_ != nullptr) {
-        beside_->message(channel, static_cast<std::uint64_t>(time_ns), bytes);
+    if (mirror_ != nullptr) {
+        mirror_->message(channel, static_cast<std::uint64_t>(time_ns), bytes);
     }
     last_time_ns_ = std::max(last_time_ns_, time_ns);
 }

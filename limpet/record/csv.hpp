@@ -15,7 +15,7 @@ namespace limpet::record {
 /// truth_pose.csv, with units in the column names, and events.csv with the values of an event as
 /// `name=value;name=value`. Numbers are the shortest that read back exactly; nan and inf as such;
 /// times and 64-bit integers with all digits. No file is written over another: csv_names(). Each
-/// file is written beside its place and renamed: none is ever half there.
+/// file is written next to its place and renamed: none is ever half there.
 /// @param folder  made if it is not there
 /// @return the files, in the order of the topics, events.csv last
 /// @throws InputError if a file cannot be written, naming it; Interrupted between two
@@ -39,7 +39,7 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
 std::vector<std::filesystem::path> write_attachments(const Recording& recording,
                                                      const std::filesystem::path& folder);
 
-/// A recording may come from anybody, its names too: to be asked before anything is written.
+/// A recording may come from anybody, its names too: to be called before anything is written.
 /// @throws InputError naming the first attachment whose name is no plain file name
 void require_plain_names(const Recording& recording);
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "limpet/record/message_definitions.hpp"
+#include "limpet/record/schema.hpp"
 
 namespace limpet::record {
 namespace {
@@ -28,8 +28,8 @@ std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_vie
     // The profile "ros2" wants the key; empty means the player's default.
     const std::uint16_t id =
         file_.add_channel(known->second, topic, kEncoding, {{"offered_qos_profiles", ""}});
-    if (beside_ != nullptr) {
-        beside_->channel({.id = id,
+    if (mirror_ != nullptr) {
+        mirror_->channel({.id = id,
                           .topic = topic,
                           .type = type,
                           .encoding = kEncoding,
@@ -41,8 +41,8 @@ std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_vie
 
 void MessageWriter::add_attachment(const mcap::Attachment& attachment) {
     file_.add_attachment(attachment);
-    if (beside_ != nullptr) {
-        beside_->attachment(attachment);
+    if (mirror_ != nullptr) {
+        mirror_->attachment(attachment);
     }
 }
 

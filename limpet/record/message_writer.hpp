@@ -18,13 +18,13 @@ namespace limpet::record {
 /// A recording's channels. Log times are simulated nanoseconds from 0. write() allocates nothing.
 class MessageWriter {
 public:
-    /// @param beside  takes the same; null: nobody. Lives as long
+    /// @param mirror  takes the same; null: nobody. Lives as long
     /// @param topics  that are written; none: all of them
     /// @throws InputError if the file cannot be written
-    explicit MessageWriter(const std::filesystem::path& path, MessageSink* beside = nullptr,
+    explicit MessageWriter(const std::filesystem::path& path, MessageSink* mirror = nullptr,
                            const mcap::WriterOptions& options = {},
                            std::vector<std::string> topics = {})
-        : file_(path, options), beside_(beside), topics_(std::move(topics)) {}
+        : file_(path, options), mirror_(mirror), topics_(std::move(topics)) {}
 
     [[nodiscard]] mcap::Writer& file() { return file_; }
     [[nodiscard]] const mcap::Writer& file() const { return file_; }
@@ -37,8 +37,8 @@ public:
     std::uint16_t add_channel(std::string_view topic, std::string_view type,
                               std::string_view schema);
     void add_attachment(const mcap::Attachment& attachment);
-    /// Room for messages of so many bytes.
-    void make_room(std::size_t bytes) { buffer_.resize(std::max(buffer_.size(), bytes)); }
+    /// Space for messages of so many bytes.
+    void reserve(std::size_t bytes) { buffer_.resize(std::max(buffer_.size(), bytes)); }
 
     // Defined in cdr.hpp, for those who write messages.
     template <class... Fields>
@@ -51,7 +51,7 @@ private:
     static constexpr std::uint16_t kNowhere = 0xFFFF;
 
     mcap::Writer file_;
-    MessageSink* beside_;
+    MessageSink* mirror_;
     std::vector<std::string> topics_;
     std::map<std::string, std::uint16_t, std::less<>> schemas_;  ///< by type
     std::vector<char> buffer_ = std::vector<char>(4096);

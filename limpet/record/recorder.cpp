@@ -7,8 +7,8 @@
 
 #include "limpet/core/frames.hpp"
 #include "limpet/record/cdr.hpp"
-#include "limpet/record/message_definitions.hpp"
 #include "limpet/record/ros_frames.hpp"
+#include "limpet/record/schema.hpp"
 
 namespace limpet::record {
 namespace {
@@ -67,7 +67,7 @@ Motion motion(const AttitudeSetpoint& setpoint) {
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
-    : writer_(path, info.beside, {.compress = info.compress}, info.topics),
+    : writer_(path, info.mirror, {.compress = info.compress}, info.topics),
       range_sensor_(info.range_sensor),
       rotors_(info.rotors) {
     mcap::StringMap about = info.numbers;
@@ -244,7 +244,7 @@ void Recorder::estimate(const Estimate& estimate) {
 }
 
 void Recorder::setpoint(double time_s, const Setpoint& setpoint) {
-    const Motion m = std::visit([](const auto& asked) { return motion(asked); }, setpoint.motion);
+    const Motion m = std::visit([](const auto& each) { return motion(each); }, setpoint.motion);
     write(Topic::setpoint, time_s, m.mode, setpoint.armed, setpoint.pump_on, setpoint.valve_open,
           setpoint.hold_integrators, m.p, m.v, m.a, m.angles, m.thrust);
 }

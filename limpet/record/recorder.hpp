@@ -50,7 +50,7 @@ struct RecordingInfo {
     std::size_t rotors = 4;  ///< so many numbers in a field that has one for each, <= kMaxRotors
     std::vector<ColumnChannel> columns = {};
     std::optional<Scene> scene = {};  ///< with it the recording shows itself in three dimensions
-    MessageSink* beside = nullptr;    ///< takes the same messages; lives as long
+    MessageSink* mirror = nullptr;    ///< takes the same messages; lives as long
     bool compress = true;             ///< zstd; without, a reader has less to do
     std::vector<std::string> topics = {};  ///< that are recorded; none: all of them
 };

@@ -8,8 +8,9 @@
 #include <memory>
 #include <optional>
 
-#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/one_line.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/mcap/reader.hpp"
 #include "limpet/mcap/unpack.hpp"
@@ -18,7 +19,7 @@
 namespace limpet::record {
 namespace {
 
-constexpr std::size_t kMostProblems = 5;  ///< told one by one
+constexpr std::size_t kMostProblems = 5;  ///< reported one by one
 
 /// A table and what fills it; without a reader the topic is of a kind that is not read.
 struct TopicReader {
@@ -50,7 +51,7 @@ public:
         }
     }
     /// @param left_out  "are not read"
-    [[nodiscard]] std::vector<std::string> told(std::string_view left_out) && {
+    [[nodiscard]] std::vector<std::string> lines(std::string_view left_out) && {
         if (count_ > lines_.size()) {
             lines_.push_back(fmt::format("{} topics more {}", count_ - lines_.size(), left_out));
         }
@@ -88,7 +89,7 @@ void open(const mcap::Contents& contents, const mcap::Channel& channel, Allowanc
 
 std::string text_at(const Table& table, const std::string& column, std::size_t row) {
     const TextColumn* found = table.find_text(column);
-    return found != nullptr ? found->values[row] : std::string();
+    return found != nullptr ? one_line(found->values[row]) : std::string();
 }
 
 std::vector<RecordedEvent> events_of(const Table& table) {
@@ -111,7 +112,8 @@ std::vector<RecordedEvent> events_of(const Table& table) {
         const double count = lengths == nullptr ? 0.0 : lengths->values[row];
         for (std::size_t i = 0; i < values.size() && static_cast<double>(i) < count; ++i) {
             const auto& [name, value] = values[i];
-            event.values.emplace_back(name != nullptr ? name->values[row] : "", value->values[row]);
+            event.values.emplace_back(name != nullptr ? one_line(name->values[row]) : "",
+                                      value->values[row]);
         }
         events.push_back(std::move(event));
     }
@@ -222,8 +224,8 @@ Recording read_recording(const std::filesystem::path& path) {
         recording.metadata[metadata.name] = std::move(metadata.values);
     }
     recording.events = events_of(recording.tables);
-    recording.remarks = std::move(not_taken).told("are not taken");
-    std::vector<std::string> problems = std::move(unread).told("are not read");
+    recording.remarks = std::move(not_taken).lines("are not taken");
+    std::vector<std::string> problems = std::move(unread).lines("are not read");
     if (!contents.damage.empty()) {
         problems.insert(problems.begin(), contents.damage);
     }

@@ -40,9 +40,8 @@ struct Recording {
     std::vector<mcap::Attachment> attachments;
     std::vector<Table> tables;  ///< one a topic that has messages, in the order of their channels
     std::vector<RecordedEvent> events;
-    std::uint64_t origin_ns =
-        0;               ///< of all times, in the clock of the file (core/clock_origin.hpp)
-    std::string damage;  ///< what is missing, in one sentence; empty when whole
+    std::uint64_t origin_ns = 0;  ///< of all times, in the clock of the file (core/time.hpp)
+    std::string damage;           ///< what is missing, in one sentence; empty when whole
     /// What is no damage: a line for each topic that does not become columns, "topic /x is not
     /// taken: why".
     std::vector<std::string> remarks;
@@ -69,7 +68,7 @@ struct Recording {
 /// `remarks`, those whose definition makes no sense in `damage`. A file that zstd or LZ4 has packed
 /// as a whole is read as it is.
 /// Times of a clock count from the first message.
-/// @throws InputError if path is no MCAP file, or asks for more memory than one of its size may
+/// @throws InputError if path is no MCAP file, or needs more memory than one of its size may
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 
 }  // namespace limpet::record

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 #include <vector>
 
@@ -256,7 +255,7 @@ MovingFrames moving_frames(const Scene& scene, const Truth& truth) {
 SceneWriter::SceneWriter(MessageWriter& writer, const Scene& scene)
     : writer_(writer), scene_(scene) {
     constexpr std::size_t kLongestMarks = 8192, kBesideText = 64;
-    writer.make_room(std::max(kLongestMarks, scene.robot_description.size() + kBesideText));
+    writer.reserve(std::max(kLongestMarks, scene.robot_description.size() + kBesideText));
     writer.write(writer.add_channel(kDescriptionTopic, "std_msgs/msg/String"), 0.0,
                  LongText{scene.robot_description});
     moving_ = writer.add_channel(kMovingTopic, "tf2_msgs/msg/TFMessage");
@@ -270,7 +269,7 @@ SceneWriter::SceneWriter(MessageWriter& writer, const Scene& scene)
     if (scene.wall) {
         write_wall();
     }
-    scene_.robot_description.clear();  // has been said
+    scene_.robot_description.clear();  // has been reported
 }
 
 WallShown wall_shown(const WallGeometry& wall) {

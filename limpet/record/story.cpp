@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "limpet/core/one_line.hpp"
 #include "limpet/core/signals/true_end.hpp"
 
 namespace limpet::record {
@@ -43,12 +44,13 @@ const RecordedEvent* first_of(const Recording& recording, std::initializer_list<
 
 std::string text_of(const nlohmann::json& object, const char* key) {
     const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+    return found != object.end() && found->is_string() ? one_line(found->get<std::string>())
+                                                       : std::string();
 }
 
 std::string text_of(const mcap::StringMap& map, const char* key) {
     const auto found = map.find(key);
-    return found == map.end() ? std::string() : found->second;
+    return found == map.end() ? std::string() : one_line(found->second);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct Chapter {
     Window window;
     double zero_s = 0.0;      ///< of its own time: when what it is about began
     std::string zero = {};    ///< "the impact"; empty: the recording's time is its own
-    std::string ending = {};  ///< what it came to, where the flight's outcome tells of more
+    std::string ending = {};  ///< what it came to, where the flight's outcome covers more
 };
 
 /// What the flight says of itself; texts are empty where the recording does not say.

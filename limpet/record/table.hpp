@@ -26,7 +26,7 @@ struct Column {
     std::string name;  ///< "pose.position.x", "rotor_speed_rad_s[0]"
     std::vector<double> values;
     Whole kind = Whole::none;
-    std::vector<std::int64_t> whole = {};  ///< beside each value, with all its digits
+    std::vector<std::int64_t> whole = {};  ///< next to each value, with all its digits
 };
 
 struct TextColumn {
@@ -65,7 +65,7 @@ inline constexpr std::size_t kMaxArrayColumns = 64;
 /// A nested message is flattened with dots, a fixed array with brackets. A dynamic array `a` gives
 /// `a.length` and `a[0]`, `a[1]`..., NaN or empty where it was shorter. Times become seconds,
 /// booleans 0 and 1, 64-bit integers the nearest double; of the last and of times all digits are
-/// kept beside them. A nested message without fields is a byte, as ROS 2 writes it. Names of
+/// kept next to them. A nested message without fields is a byte, as ROS 2 writes it. Names of
 /// `limpet_msgs` get their units' capitals back (units.hpp).
 class TableReader {
 public:

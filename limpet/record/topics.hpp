@@ -64,7 +64,7 @@ inline constexpr std::array<TopicInfo, 20> kTopics = {{
 [[nodiscard]] constexpr const TopicInfo& info(Topic topic) {
     return kTopics[static_cast<std::size_t>(topic)];
 }
-// A channel beside them, of a vehicle with a payload on a cable alone: numbers in W.
+// A channel next to them, of a vehicle with a payload on a cable alone: numbers in W.
 inline constexpr std::string_view kPayloadTopic = "/truth/payload";
 inline constexpr std::string_view kPayloadType = "limpet_msgs/msg/PayloadTruth";
 inline constexpr std::array<std::string_view, 8> kPayloadColumns = {

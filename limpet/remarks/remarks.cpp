@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "limpet/autopilot/allocation.hpp"
-#include "limpet/remarks/makers.hpp"
+#include "limpet/remarks/digits.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/suction/force_law.hpp"
 #include "limpet/vehicle/rotor.hpp"
@@ -17,9 +17,55 @@
 namespace limpet::remarks {
 namespace {
 
+struct MakersNote {
+    bool warns = false;
+    std::string text;
+};
+
+/// On the surface on which it is to rest.
+MakersNote lateral(const scenario::Scenario& scenario) {
+    const suction::Surface surface = surfaces_met(scenario).back();
+    const double ambient_Pa = scenario.cup.ambient_Pa;
+    const double has = lateral_safety(surface, scenario.cup.lip.radius_m,
+                                      carried_mass_kg(scenario.airframe), ambient_Pa);
+    const double required = safety_factor_asked(surface, *scenario.wall.condition);
+    return {has < required,
+            fmt::format("the cup carries {:.1f} times the weight along the wall (friction {:.3g}, "
+                        "vacuum {:.0f} hPa); cup manufacturers require {:.2g}",
+                        has, surface.friction,
+                        hectopascals(ambient_Pa - surface.vacuum_pressure_Pa), required)};
+}
+
+std::vector<MakersNote> notes(const scenario::Scenario& scenario) {
+    if (!scenario.wall.present || !scenario.airframe.has_cup) {
+        return {};
+    }
+    std::vector<MakersNote> all = {lateral(scenario)};
+    const suction::LipParameters& lip = scenario.cup.lip;
+    if (!follows(lip, scenario.wall.geometry)) {
+        all.push_back(
+            {true, fmt::format("the wall's radius of {:.3g} m is less than the {:.3g} m that "
+                               "a cup of {:.0f} mm seals on (suction.least_radius_m): no "
+                               "touch will seal",
+                               scenario.wall.radius_m, least_radius_m(lip), 2e3 * lip.radius_m)});
+    }
+    return all;
+}
+
+std::vector<std::string> texts(const scenario::Scenario& scenario, bool warnings_alone) {
+    std::vector<std::string> lines;
+    for (const MakersNote& note : notes(scenario)) {
+        if (note.warns || !warnings_alone) {
+            lines.push_back(note.text);
+        }
+    }
+    return lines;
+}
+
 using scenario::Scenario;
 
-constexpr double kLeastFactor = 2.0;  ///< as makers ask on what is critical (suction/condition.hpp)
+constexpr double kLeastFactor =
+    2.0;  ///< as makers require on what is critical (suction/condition.hpp)
 
 double vacuum_N(const Scenario& scenario) {
     const suction::Surface surface = surfaces_met(scenario).back();
@@ -36,19 +82,20 @@ Note peel(const Scenario& scenario) {
     const double bends_N_m = spring_N_m_rad * pitch_rad;
     const double factor = peels_N_m / std::max(bends_N_m, 1e-9);
     std::string text = fmt::format(
-        "pitched to {:.0f} deg the springs of the hinges bend the lip by {:.2g} N m; it peels "
-        "beyond {:.2g} N m",
-        scenario.guidance.perched_pitch_deg, bends_N_m, peels_N_m);
+        "pitched to {:.0f} deg the springs of the hinges bend the lip by {} N m; it peels "
+        "beyond {} N m",
+        scenario.guidance.perched_pitch_deg, about(bends_N_m), about(peels_N_m));
     if (bends_N_m > 0.0) {
-        text += fmt::format(", {:.1f} times that", factor);
+        text += factor < 1.0 ? fmt::format(", {} times that", about(factor))
+                             : fmt::format(", {:.1f} times that", factor);
     }
     if (factor >= kLeastFactor) {
         return {false, text};
     }
-    return {true,
-            fmt::format("{}, at least {:.0f} times are asked for: "
-                        "vehicle.cup.centring_stiffness_N_m_rad is {:.3g}, some {:.1g} is right",
-                        text, kLeastFactor, spring_N_m_rad, peels_N_m / (kAim * pitch_rad))};
+    return {true, fmt::format("{}, at least {:.0f} times are required: "
+                              "vehicle.cup.centring_stiffness_N_m_rad is {:.3g}, some {} is right",
+                              text, kLeastFactor, spring_N_m_rad,
+                              about(peels_N_m / (kAim * pitch_rad), 1))};
 }
 
 /// The slider's spring gives back what it took, less its damper's share; at the outer stop the cup
@@ -69,18 +116,20 @@ std::optional<Note> rebound(const Scenario& scenario) {
     if (pulls_N <= kMostShare * holds_N) {
         return std::nullopt;
     }
-    return Note{true,
-                fmt::format("the slider throws the vehicle back at {:.0f} % of its speed, {:.0f} N "
-                            "at the outer stop, of the {:.0f} N that the cup holds at most: "
-                            "vehicle.slider.damping_N_s_m is {:.3g}, {:.2g} throws nothing back",
-                            100.0 * back, pulls_N, holds_N, slider.damping_N_s_m, critical_N_s_m)};
+    return Note{
+        true,
+        fmt::format("the slider throws the vehicle back at {:.0f} % of its speed, {:.0f} N "
+                    "at the outer stop, of the {:.0f} N that the cup holds at most: "
+                    "vehicle.slider.damping_N_s_m is {:.3g}, {} throws nothing back",
+                    100.0 * back, pulls_N, holds_N, slider.damping_N_s_m, about(critical_N_s_m))};
 }
 
 /// How fast the rate loop turns the vehicle, against its motors and against the loop around it.
 struct RateLoop {
     const char* axis;
-    const char* gain;
-    double scale = 0.0;  ///< MC_ROLLRATE_K or MC_PITCHRATE_K
+    const char* gain;           ///< "MC_ROLLRATE"
+    double scale = 0.0;         ///< MC_ROLLRATE_K or MC_PITCHRATE_K
+    double proportional = 0.0;  ///< MC_ROLLRATE_P or MC_PITCHRATE_P
     double crossover_rad_s = 0.0;
     double attitude_1_s = 0.0;  ///< MC_ROLL_P or MC_PITCH_P
 };
@@ -100,9 +149,9 @@ std::array<RateLoop, 2> rate_loops(const Scenario& scenario) {
         pitch_N_m += mixer.pitch[at] * rotor.p_B_m.x() * rotor.thrust_share * thrust_N;
     }
     const Vector3& inertia = airframe.inertia_kg_m2;
-    return {RateLoop{"roll", "MC_ROLLRATE_K", p.MC_ROLLRATE_K,
+    return {RateLoop{"roll", "MC_ROLLRATE", p.MC_ROLLRATE_K, p.MC_ROLLRATE_P,
                      p.MC_ROLLRATE_K * p.MC_ROLLRATE_P * roll_N_m / inertia.x(), p.MC_ROLL_P},
-            RateLoop{"pitch", "MC_PITCHRATE_K", p.MC_PITCHRATE_K,
+            RateLoop{"pitch", "MC_PITCHRATE", p.MC_PITCHRATE_K, p.MC_PITCHRATE_P,
                      p.MC_PITCHRATE_K * p.MC_PITCHRATE_P * pitch_N_m / inertia.y(), p.MC_PITCH_P}};
 }
 
@@ -120,18 +169,26 @@ std::vector<Note> gains(const Scenario& scenario) {
             ? 0.0
             : 0.5 * (rotor.time_constant_up_s + rotor.time_constant_down_s) + rotor.command_delay_s;
     for (const RateLoop& loop : rate_loops(scenario)) {
+        if (!(loop.crossover_rad_s > 0.0)) {
+            notes.push_back(
+                {true,
+                 fmt::format("by its gains the {} rate does not follow at all: autopilot.{}_K "
+                             "is {:.3g}, {}_P {:.3g}",
+                             loop.axis, loop.gain, loop.scale, loop.gain, loop.proportional)});
+            continue;
+        }
         const bool quick = loop.crossover_rad_s * lag_s > kQuickest;
         if (quick || loop.crossover_rad_s < kSlowest * loop.attitude_1_s) {
             notes.push_back(
-                {true,
-                 fmt::format(
-                     "by its gains the {} rate follows at {:.2g} rad/s, too {}: "
-                     "autopilot.{} is {:.3g}, some {:.2g} is right",
-                     loop.axis, loop.crossover_rad_s,
-                     quick ? fmt::format("fast for motors that lag by {:.2g} ms", 1e3 * lag_s)
-                           : fmt::format("slow for an attitude that asks {:.2g} 1/s",
-                                         loop.attitude_1_s),
-                     loop.gain, loop.scale, loop.scale * kUsual_rad_s / loop.crossover_rad_s)});
+                {true, fmt::format("by its gains the {} rate follows at {} rad/s, too {}: "
+                                   "autopilot.{}_K is {:.3g}, some {} is right",
+                                   loop.axis, about(loop.crossover_rad_s),
+                                   quick ? fmt::format("fast for motors that lag by {} ms",
+                                                       about(1e3 * lag_s))
+                                         : fmt::format("slow for an attitude that needs {} 1/s",
+                                                       about(loop.attitude_1_s)),
+                                   loop.gain, loop.scale,
+                                   about(loop.scale * kUsual_rad_s / loop.crossover_rad_s))});
         }
     }
     return notes;
@@ -211,6 +268,14 @@ std::vector<std::string> warnings(const Scenario& scenario) {
         }
     }
     return texts;
+}
+
+std::vector<std::string> makers_notes(const scenario::Scenario& scenario) {
+    return texts(scenario, false);
+}
+
+std::vector<std::string> makers_warnings(const scenario::Scenario& scenario) {
+    return texts(scenario, true);
 }
 
 }  // namespace limpet::remarks

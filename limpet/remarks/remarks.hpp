@@ -16,9 +16,9 @@ struct Note {
     std::string text;
 };
 
-/// How often the cup carries the vehicle along the wall (makers.hpp), how far the springs of its
-/// hinges are from peeling the lip, how hard the slider throws the vehicle back; a start from which
-/// nobody sees the wall; what the vehicle's file leaves to the paper's vehicle.
+/// How often the cup carries the vehicle along the wall (makers_notes()), how far the springs of
+/// its hinges are from peeling the lip, how hard the slider throws the vehicle back; a start from
+/// which nobody sees the wall; what the vehicle's file leaves to the paper's vehicle.
 [[nodiscard]] std::vector<Note> notes_of(const scenario::Scenario& scenario);
 
 /// Those alone that warn.
@@ -28,5 +28,14 @@ struct Note {
 /// @return what does not go with its mass and size
 [[nodiscard]] std::vector<std::string> vehicle_remarks(const vehicle::Airframe& airframe,
                                                        const std::vector<std::string>& inherited);
+
+// A scenario against the rules of makers of suction cups, a line each. None of it stops a flight.
+
+/// All of it: how often the cup carries the vehicle along the wall and what they require, and
+/// whether the wall is rounder than the lip follows. Empty without cup or wall.
+[[nodiscard]] std::vector<std::string> makers_notes(const scenario::Scenario& scenario);
+
+/// Only those that are not as makers require.
+[[nodiscard]] std::vector<std::string> makers_warnings(const scenario::Scenario& scenario);
 
 }  // namespace limpet::remarks

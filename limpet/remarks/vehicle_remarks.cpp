@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "limpet/remarks/digits.hpp"
 #include "limpet/remarks/remarks.hpp"
-#include "limpet/vehicle/plausible.hpp"
+#include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::remarks {
@@ -66,8 +67,8 @@ private:
         constexpr double kReach_m = 0.2, kFactor = 1.6;
         const double usual_m = kReach_m * std::cbrt(mass_kg_);
         if (is_inherited("rotors") && !within(reach_m_, usual_m, kFactor)) {
-            say("{}: hubs {:.2g} m out; a vehicle of {:.3g} kg has some {:.2g}", where("rotors"),
-                reach_m_, mass_kg_, usual_m);
+            say("{}: hubs {} m out; a vehicle of {:.3g} kg has some {}", where("rotors"),
+                about(reach_m_), mass_kg_, about(usual_m));
         }
     }
 
@@ -79,16 +80,17 @@ private:
             if (!is_plausible_inertia(airframe_, airframe_.inertia_kg_m2[axis], axis, factor)) {
                 const Vector3 usual = usual_inertia_kg_m2(airframe_);
                 const Vector3& has = airframe_.inertia_kg_m2;
-                say("inertia_kg_m2 is {}[{:.2g}, {:.2g}, {:.2g}]; a vehicle of {:.3g} kg with its "
-                    "hubs {:.2g} m out has some [{:.2g}, {:.2g}, {:.2g}]",
-                    unsaid ? "not given, so it is " : "", has.x(), has.y(), has.z(), mass_kg_,
-                    reach_m_, usual.x(), usual.y(), usual.z());
+                say("inertia_kg_m2 is {}[{}, {}, {}]; a vehicle of {:.3g} kg with its hubs {} m "
+                    "out has some [{}, {}, {}]",
+                    unsaid ? "not given, so it is " : "", about(has.x()), about(has.y()),
+                    about(has.z()), mass_kg_, about(reach_m_), about(usual.x()), about(usual.y()),
+                    about(usual.z()));
                 return;
             }
         }
     }
 
-    /// Room below and above for what turns and climbs.
+    /// Space below and above for what turns and climbs.
     void hover() {
         constexpr double kLeast = 0.25, kMost = 0.85;
         const double command = hover_command(airframe_);
@@ -98,7 +100,7 @@ private:
         const std::vector<std::string> keys =
             left_out({"rotor.motor_constant_kg_m", "rotor.speed_scale_rad_s",
                       "rotor.speed_offset_rad_s", "rotor.speed_max_rad_s"});
-        say("it hovers at motor command {:.2f}, which leaves little room {}: {}", command,
+        say("it hovers at motor command {:.2f}, which leaves little reserve {}: {}", command,
             command < kLeast ? "below" : "above",
             keys.empty() ? "rotor.motor_constant_kg_m, rotor.speed_scale_rad_s, mass_kg"
                          : fmt::format("{} not given, so the {:.3g} kg vehicle's",
@@ -116,10 +118,10 @@ private:
             is_inherited("slider.stiffness_N_m") || is_inherited("slider.damping_N_s_m");
         if (moves && !within(share, 1.0, kFactor)) {
             say("{} not given, so the {:.3g} kg vehicle's; with {:.3g} kg the slider moves as its "
-                "does at some {:.2g} N/m, {:.2g} N s/m, {:.2g} N",
+                "does at some {} N/m, {} N s/m, {} N",
                 fmt::format("{}", fmt::join(keys, ", ")), paper.mass_kg, mass_kg_,
-                share * paper.slider.stiffness_N_m, share * paper.slider.damping_N_s_m,
-                share * paper.slider.preload_N);
+                about(share * paper.slider.stiffness_N_m),
+                about(share * paper.slider.damping_N_s_m), about(share * paper.slider.preload_N));
         }
     }
 
@@ -135,10 +137,10 @@ private:
         const double usual = peels_N_m / (kAim * pitch_on_legs_rad(airframe_));
         if (!within(airframe_.cup.centring_stiffness_N_m_rad, usual, 2.0) &&
             airframe_.cup.centring_stiffness_N_m_rad > usual) {
-            say("{} is not given, so it is an 80 mm cup's {:.2g}; the lip of one of {:.0f} mm "
-                "peels at "
-                "{:.2g} N m (600 hPa of vacuum): at most some {:.1g}",
-                kKey, airframe_.cup.centring_stiffness_N_m_rad, 2e3 * radius_m, peels_N_m, usual);
+            say("{} is not given, so it is an 80 mm cup's {}; the lip of one of {:.0f} mm peels at "
+                "{} N m (600 hPa of vacuum): at most some {}",
+                kKey, about(airframe_.cup.centring_stiffness_N_m_rad), 2e3 * radius_m,
+                about(peels_N_m), about(usual, 1));
         }
     }
 
@@ -167,8 +169,8 @@ private:
         const double length_m = std::hypot(legs.tip_x_m, legs.tip_z_m);
         const double pitch_deg = degrees(pitch_on_legs_rad(airframe_));
         if (length_m > kLong * reach_m_) {
-            say("{}: the legs reach {:.2g} m, {:.1f} times as far as the hubs",
-                where("legs.tip_z_m"), length_m, length_m / reach_m_);
+            say("{}: the legs reach {} m, {:.1f} times as far as the hubs", where("legs.tip_z_m"),
+                about(length_m), length_m / reach_m_);
         } else if (pitch_deg < kLeast_deg || pitch_deg > kMost_deg) {
             say("{}: on its legs it would stand at {:.0f} deg of pitch", where("legs.tip_z_m"),
                 pitch_deg);

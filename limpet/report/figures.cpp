@@ -8,7 +8,6 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/gnuplot.hpp"
-#include "limpet/report/panels.hpp"
 
 namespace limpet::report {
 namespace {

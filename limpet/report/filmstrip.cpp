@@ -16,7 +16,6 @@
 #include "limpet/draw/stage.hpp"
 #include "limpet/draw/video.hpp"
 #include "limpet/record/story.hpp"
-#include "limpet/report/moments.hpp"
 
 namespace limpet::report {
 namespace {

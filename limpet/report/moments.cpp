@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/report/moments.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "limpet/record/story.hpp"
 #include "limpet/record/topics.hpp"
+#include "limpet/report/filmstrip.hpp"
 
 namespace limpet::report {
 namespace {
@@ -72,7 +71,7 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<Moment> told() {
+    [[nodiscard]] std::vector<Moment> take() {
         std::stable_sort(moments_.begin(), moments_.end(),
                          [](const Moment& a, const Moment& b) { return a.time_s < b.time_s; });
         std::vector<Moment> apart;
@@ -108,19 +107,19 @@ std::vector<Moment> perching_moments(const record::Recording& recording) {
     const record::RecordedEvent* impact = story.add_event(EventName::impact, start_s);
     if (impact == nullptr) {
         story.add(0.5 * (start_s + whole_flight(recording).to_s), "approach");
-        return story.told();
+        return story.take();
     }
     story.add(start_s + 0.6 * (impact->time_s - start_s), "approach");
     if (const auto* retreat = first_event(recording, EventName::retreat_started, impact->time_s)) {
         story.add(0.5 * (impact->time_s + retreat->time_s), "hold");
         story.add(retreat->time_s, "retreat started");
         story.add(retreat->time_s + 1.0, "retreat");
-        return story.told();
+        return story.take();
     }
     story.add_event(EventName::attached, impact->time_s);
     const auto* landing = first_event(recording, EventName::landing_started, impact->time_s);
     if (landing == nullptr) {
-        return story.told();
+        return story.take();
     }
     if (const auto* perched = story.add_event(EventName::perched, landing->time_s)) {
         story.add_pitches(landing->time_s, perched->time_s, "landing");
@@ -130,7 +129,7 @@ std::vector<Moment> perching_moments(const record::Recording& recording) {
     } else {
         story.add(landing->time_s, "landing started");
     }
-    return story.told();
+    return story.take();
 }
 
 std::vector<Moment> take_off_moments(const record::Recording& recording) {
@@ -150,7 +149,7 @@ std::vector<Moment> take_off_moments(const record::Recording& recording) {
     if (detached != nullptr && back != nullptr) {
         story.add(0.6 * detached->time_s + 0.4 * back->time_s, "backing off");
     }
-    return story.told();
+    return story.take();
 }
 
 std::vector<Moment> flight_moments(const record::Recording& recording) {

@@ -8,10 +8,11 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
+#include "limpet/core/read_file.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/core/write_file.hpp"
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/draw/html.hpp"
-#include "limpet/report/page_parts.hpp"
 
 namespace limpet::report {
 namespace {
@@ -22,15 +23,11 @@ using draw::html::escaped;
 constexpr std::size_t kMostSvg_bytes = 800'000;
 
 std::string read_bytes(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.good() && bytes.empty()) {
-        throw InputError(fmt::format("cannot read the picture {}", path.string()));
-    }
-    return bytes;
+    constexpr std::size_t kMost_MB = 100;
+    return read_file(path, {"picture", kMost_MB});
 }
 
-/// For those who do not see colours: a sign beside the word.
+/// For readers who do not see colours: a sign before the word.
 const char* sign_of(Verdict verdict) {
     switch (verdict) {
         case Verdict::reproduced: return "✓";
@@ -161,14 +158,16 @@ private:
 
     void block(const PageTable& table) {
         add("<h3 id=\"{}\">{}</h3>\n", table.id, escaped(table.title));
-        // Whoever cannot swipe scrolls by the keyboard: hence the focus.
+        // The focus is for readers who scroll by the keyboard.
         add("<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-labelledby=\"{}\">\n"
             "<table>\n<thead><tr>",
             table.id);
         std::vector<const char*> aligned;
         for (std::size_t c = 0; c < table.columns.size(); ++c) {
-            const auto numbers = std::count_if(table.rows.begin(), table.rows.end(),
-                                               [c](const auto& row) { return is_number(row[c]); });
+            const auto numbers =
+                std::count_if(table.rows.begin(), table.rows.end(), [c](const auto& row) {
+                    return is_number(row[c]) || decimal(std::get<std::string>(row[c]));
+                });
             const bool mostly = 2 * static_cast<std::size_t>(numbers) > table.rows.size();
             aligned.push_back(mostly ? " class=\"number-cell\"" : "");
             add("<th scope=\"col\"{}>{}</th>", aligned[c], escaped(table.columns[c]));
@@ -313,7 +312,7 @@ std::string page_html(const Page& page, const std::filesystem::path& folder) {
 void require_ours(const std::filesystem::path& folder) {
     if (is_there(folder / "index.html") && !is_there(folder / "results.json")) {
         throw InputError(fmt::format(
-            "--out {}: holds an index.html that is no page of ours; give another folder",
+            "--out {}: holds an index.html that limpet did not write; give another folder",
             folder.string()));
     }
 }

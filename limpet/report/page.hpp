@@ -7,12 +7,46 @@
 #include <variant>
 #include <vector>
 
+#include "limpet/draw/chart.hpp"
 #include "limpet/draw/pictures.hpp"
-#include "limpet/report/claims.hpp"
 
 /// A report as a page that needs nothing but itself, and the same as data. Texts are plain and are
 /// escaped by the page; in paragraphs, captions and notes **bold** and `code` are marked up.
 namespace limpet::report {
+
+/// A number, a range of numbers, or words where there is none: "lets go at once".
+using Quantity = std::variant<std::string, double, draw::Range>;
+
+enum class Verdict {
+    reproduced,
+    differs,
+    not_modelled,
+};
+/// "reproduced", "differs", "not modelled"
+[[nodiscard]] const char* to_text(Verdict verdict);
+
+/// One statement of the paper. Nothing may be empty but what may be by its comment.
+struct Claim {
+    std::string id = {};         ///< of letters, digits, '_' and '-'; unique
+    std::string section = {};    ///< where the paper states it: "IV-B", "Fig. 11"
+    std::string statement = {};  ///< in a sentence
+    Quantity paper = {};
+    Quantity simulated = {};
+    std::string unit = {};     ///< of paper, simulated and a number as difference; empty: none
+    Quantity difference = {};  ///< simulated less paper, or words
+    Verdict verdict = Verdict::not_modelled;
+    std::string accepted = {};  ///< of the simulated value: "0.8 … 1.4", "at least 2"; may be empty
+    std::string basis = {};     ///< how the simulated value came about: "measured"; may be empty
+    std::vector<std::string> assumes = {};  ///< keys on whose assumed values the verdict rests
+    std::string same_as = {};               ///< id of the same claim stated elsewhere; may be empty
+    std::string note = {};       ///< why it differs, where bounds come from; may be empty
+    std::string figure = {};     ///< id of a figure of the page; may be empty
+    std::string recording = {};  ///< path relative to the page; may be empty
+};
+
+/// As people read it: four digits, "0.8 … 1.4", the words.
+/// @param with_sign  of a number: "+0.03"
+[[nodiscard]] std::string to_text(const Quantity& quantity, bool with_sign = false);
 
 struct PageTable {
     std::string id = {};  ///< ids: of letters, digits, '_' and '-'; unique on the page
@@ -77,8 +111,14 @@ struct Page {
 std::vector<std::filesystem::path> write_page(const Page& page,
                                               const std::filesystem::path& folder);
 
-/// A page of ours may be written anew, somebody else's may not.
+/// A page that Limpet wrote may be written anew, any other may not.
 /// @throws InputError when the folder holds an index.html without our results.json
 void require_ours(const std::filesystem::path& folder);
+
+/// @throws InternalError naming the claim, table or figure that breaks a promise of page.hpp
+void check(const Page& page);
+
+/// The page's style sheet, page.css: a sheet of paper on a screen, cards on a phone, ink on paper.
+extern const char* const kPageStyle;
 
 }  // namespace limpet::report

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/report/panels.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/draw/colours.hpp"
 #include "limpet/record/ros_frames.hpp"
+#include "limpet/report/figures.hpp"
 
 namespace limpet::report {
 namespace {
@@ -30,7 +29,7 @@ enum PanelIndex : std::size_t {
     kSpeed
 };
 
-/// How a curve looks: what sensors said, what was so.
+/// How a curve looks: what was measured, what was true.
 struct Pen {
     const char* name;
     const char* colour;
@@ -39,7 +38,7 @@ struct Pen {
 constexpr Pen kMeasured = {"measured", draw::colours::kBlue, 1.8};
 constexpr Pen kTrue = {"true", draw::colours::kDarkBlue, 1.6};
 constexpr Pen kEstimated = {"estimated", draw::colours::kPeach, 2.8};
-constexpr Pen kAsked = {"asked", draw::colours::kFaint, 2.6};
+constexpr Pen kSetPoint = {"set-point", draw::colours::kFaint, 2.6};
 
 /// Where a curve comes from and what its numbers are multiplied by.
 struct Source {
@@ -164,37 +163,39 @@ double ahead(double north, double east, double yaw_rad) {
     return north * std::cos(yaw_rad) + east * std::sin(yaw_rad);
 }
 
-/// What guidance asked for: pitch, distance and speed, each in its own mode of the setpoint; what a
-/// mode does not use was recorded as NaN, and the feed-forward of a position is no speed asked for.
-std::array<std::pair<PanelIndex, draw::ChartSeries>, 3> asked(const record::Recording& recording,
-                                                              const record::Window& window) {
+/// Guidance's set-points of pitch, distance and speed, each in its own mode; what a
+/// mode does not use was recorded as NaN, and the feed-forward of a position is no set-point of
+/// speed.
+std::array<std::pair<PanelIndex, draw::ChartSeries>, 3> set_points(
+    const record::Recording& recording, const record::Window& window) {
     constexpr double kVelocity = 2.0;  // limpet_msgs/msg/Setpoint
-    const Columns asked(recording, "/setpoint",
-                        {"mode", "pitch_rad", "yaw_rad", "velocity_north_m_s", "velocity_east_m_s",
-                         "position_north_m", "position_east_m"});
+    const Columns set_points(recording, "/setpoint",
+                             {"mode", "pitch_rad", "yaw_rad", "velocity_north_m_s",
+                              "velocity_east_m_s", "position_north_m", "position_east_m"});
     const Columns left(recording, "/sensors/range_left", {"range"});
     const Columns right(recording, "/sensors/range_right", {"range"});
     const Columns pose(recording, "/estimate/pose", {"pose.position.y", "pose.position.x"});
     const auto series = [&](const auto& value) {
-        draw::ChartSeries found = read(kAsked, asked, window, value);
+        draw::ChartSeries found = read(kSetPoint, set_points, window, value);
         found.mark = draw::ChartSeries::Mark::dashes;
         return found;
     };
-    return {{{kPitch, series([&](std::size_t i) { return degrees(asked.at(i, 1)); })},
+    return {{{kPitch, series([&](std::size_t i) { return degrees(set_points.at(i, 1)); })},
              {kDistance, series([&](std::size_t i) {
-                  const double t = asked.time_s(i);
-                  const double too_far_m = ahead(asked.at(i, 5) - pose.near(t, 0),
-                                                 asked.at(i, 6) - pose.near(t, 1), asked.at(i, 2));
+                  const double t = set_points.time_s(i);
+                  const double too_far_m =
+                      ahead(set_points.at(i, 5) - pose.near(t, 0),
+                            set_points.at(i, 6) - pose.near(t, 1), set_points.at(i, 2));
                   return 0.5 * (left.near(t, 0) + right.near(t, 0)) - too_far_m;
               })},
              {kSpeed, series([&](std::size_t i) {
-                  return asked.at(i, 0) == kVelocity
-                             ? ahead(asked.at(i, 3), asked.at(i, 4), asked.at(i, 2))
+                  return set_points.at(i, 0) == kVelocity
+                             ? ahead(set_points.at(i, 3), set_points.at(i, 4), set_points.at(i, 2))
                              : kNaN;
               })}}};
 }
 
-/// The pressures at which guidance decided, as the recording tells.
+/// The pressures at which guidance decided, as recorded.
 std::vector<draw::ChartLine> pressure_levels(const record::Recording& recording) {
     std::vector<draw::ChartLine> levels;
     const auto limpet = recording.metadata.find("limpet");
@@ -252,7 +253,7 @@ std::vector<draw::ChartPanel> panels(const record::Recording& recording,
                                    [&](std::size_t i) { return source.scale * column.at(i, 0); }));
         }
     }
-    // Over the truth nobody could see it: what is drawn is its error.
+    // Over the truth it could not be seen: its error is drawn.
     const draw::ChartSeries believed = estimated_pitch(recording, window);
     if (all[kPitch].series.empty()) {
         add(kPitch, believed);
@@ -263,7 +264,7 @@ std::vector<draw::ChartPanel> panels(const record::Recording& recording,
                     {"velocity_north_m_s", "velocity_east_m_s", "yaw_rad"});
     add(kSpeed, read(kTrue, v, window,
                      [&v](std::size_t i) { return ahead(v.at(i, 0), v.at(i, 1), v.at(i, 2)); }));
-    for (auto& [panel, series] : asked(recording, window)) {
+    for (auto& [panel, series] : set_points(recording, window)) {
         add(panel, series);
     }
     std::vector<draw::ChartPanel> shown;
@@ -271,7 +272,7 @@ std::vector<draw::ChartPanel> panels(const record::Recording& recording,
         draw::ChartPanel& panel = all[i];
         const bool strip = i == kPitchError || i == kSlider;
         if (strip && panel.series.size() == 1) {
-            panel.series.front().name.clear();  // its axis says it
+            panel.series.front().name.clear();  // its axis has the name
         }
         if (!panel.series.empty()) {
             panel.x_range = draw::Range{window.from_s, window.to_s};

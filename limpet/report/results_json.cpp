@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "limpet/report/page.hpp"
-#include "limpet/report/page_parts.hpp"
 
 namespace limpet::report {
 namespace {

@@ -34,7 +34,7 @@ std::string_view bare_page() {
     return {limpet_view_page, static_cast<std::size_t>(limpet_view_page_end - limpet_view_page)};
 }
 
-/// Those of one name are told apart by their folder's: every flight's recording is flight.mcap.
+/// Recordings of one name are named by their folder: every flight's recording is flight.mcap.
 std::string title_of(const std::filesystem::path& recording) {
     const std::string folder = recording.parent_path().filename().string();
     return recording.stem() == "flight" && !folder.empty() ? folder : recording.stem().string();

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/scenario/yaml_tree.hpp"
 
@@ -19,8 +20,7 @@ namespace fs = std::filesystem;
 
 /// Never the working folder by itself: it may be anybody's.
 bool holds_data(const fs::path& folder) {
-    std::error_code ignored;
-    return folder.is_absolute() && fs::is_regular_file(folder / "surfaces.yaml", ignored);
+    return folder.is_absolute() && is_file(folder / "surfaces.yaml");
 }
 
 /// From bin/, lib/ or lib/x86_64-linux-gnu/ to what they are in; build trees and the Python package
@@ -82,8 +82,7 @@ std::string shipped_name_of(const fs::path& path) {
         return {};
     }
     try {
-        std::error_code ignored;
-        const bool ships = fs::exists(data_root() / folder / path.filename(), ignored);
+        const bool ships = is_there(data_root() / folder / path.filename());
         return ships ? path.stem().string() : std::string();
     } catch (const InputError&) {  // no data at all
         return {};
@@ -100,13 +99,10 @@ fs::path find_file(const std::string& wanted, std::string_view kind, const fs::p
     if (is_path(wanted)) {
         return wanted;
     }
-    std::error_code ignored;
-    const fs::path file = folder / (wanted + ".yaml");
-    if (!wanted.empty() && fs::exists(file, ignored)) {
-        return file;
-    }
-    if (!wanted.empty() && fs::exists(wanted, ignored)) {
-        return wanted;
+    for (const fs::path& file : {folder / (wanted + ".yaml"), fs::path(wanted)}) {
+        if (!wanted.empty() && is_there(file)) {
+            return file;
+        }
     }
     throw InputError(unknown_name(wanted, kind, names_in(folder)));
 }

@@ -9,7 +9,7 @@
 namespace limpet::scenario {
 
 /// Folder with scenarios/, vehicles/ and surfaces.yaml: the environment's LIMPET_DATA, else
-/// share/limpet beside the folder of the program, or of the library that it has this from. A build
+/// share/limpet next to the folder of the program, or of the library that it has this from. A build
 /// tree has a link there to the checkout's data/; plugins and nodes, which are not installed, know
 /// theirs.
 /// @throws InputError when there is no surfaces.yaml

@@ -2,12 +2,14 @@
 #include "limpet/scenario/derived.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/sensors/magnetometer.hpp"
 #include "limpet/vehicle/battery.hpp"
 #include "limpet/vehicle/rotor.hpp"
+#include "limpet/vehicle/standing.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -31,6 +33,17 @@ double perched_pitch_deg(const Scenario& scenario) {
     constexpr double kLeast_deg = 5.0, kMost_deg = 90.0;
     return std::clamp(degrees(vehicle::pitch_on_legs_rad(scenario.airframe)), kLeast_deg,
                       kMost_deg);
+}
+
+/// Docked with a lean across, the vehicle rests turned about its cup by 0.71 to 0.78 of it, as
+/// flown with every vehicle that ships: the lip keeps it, the weight takes some back. Turned
+/// farther than tipping_turn_rad() it falls over a leg.
+double lean_across_share(const Scenario& scenario) {
+    constexpr double kKept = 0.8, kLeast = 0.01;
+    const double lean_limit_rad = radians(scenario.guidance.lean_limit_deg);
+    const double across_rad = vehicle::tipping_turn_rad(scenario.airframe) / kKept;
+    return std::max(kLeast,
+                    std::tan(std::min(across_rad, lean_limit_rad)) / std::tan(lean_limit_rad));
 }
 
 /// A pressure with the vacuum, and so the force, that the same number has at sea level.
@@ -64,6 +77,7 @@ constexpr DerivedKey kDerived[] = {
     {"guidance", "joint_x_m", [](S s) { return s.airframe.cup.joint_x_m; }},
     {"guidance", "joint_z_m", [](S s) { return s.airframe.cup.joint_z_m; }},
     {"guidance", "perched_pitch_deg", &perched_pitch_deg},
+    {"guidance", "lean_across_share", &lean_across_share},
     {"guidance", "land_pressure_Pa",
      [](S s) { return of_same_vacuum_Pa(s, guidance::PerchingParameters{}.land_pressure_Pa); }},
     {"guidance", "detach_pressure_Pa",

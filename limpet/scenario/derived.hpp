@@ -11,7 +11,7 @@
 namespace limpet::scenario {
 
 /// What a mixer must know of the rotors. What the wake of an upper one takes is left out: PX4's own
-/// airframes of coaxial pairs tell it no other thrust of the lower ones.
+/// airframes of coaxial pairs state no other thrust of the lower ones.
 [[nodiscard]] RotorList<autopilot::RotorGeometry> rotor_geometry(
     const vehicle::AirframeNumbers& airframe);
 
@@ -27,6 +27,8 @@ namespace limpet::scenario {
 ///   guidance.zero_thrust                      u at which the rotors would stand: -offset / scale
 ///   guidance.drag_1_s                         4 lambda_1 w_hover / m
 ///   guidance.valve_fitted                     suction.valve_fitted
+///   guidance.lean_across_share                the lean with which the legs do not tip, of
+///                                             guidance.lean_limit_deg
 ///   suction.radius_m                          the vehicle's cup
 ///   suction.attachment_pressure_Pa,           the vacuum of the defaults at sea level, below the
 ///   guidance.land_pressure_Pa,                ambient pressure
@@ -40,7 +42,7 @@ namespace limpet::scenario {
                                             const Scenario& scenario);
 
 /// Of the first, second, ... touch and all after the last, in the wall's condition and the air
-/// around: `wall.surface` tells its vacuum as it is at sea level, and what a pump keeps is its
+/// around: `wall.surface` gives its vacuum at sea level, and what a pump keeps is its
 /// ratio of pressures.
 [[nodiscard]] std::vector<suction::Surface> surfaces_met(const Scenario& scenario);
 

@@ -16,7 +16,7 @@ using faults::Fault;
 using faults::KindRow;
 
 constexpr double kLongest_s = 1e6;
-constexpr double kNever_s = 1e9;  ///< what the former keys said for never
+constexpr double kNever_s = 1e9;  ///< what the former keys gave for never
 
 double read_in(const YamlNode& node, std::string_view unit, double least, double most) {
     double value = 0.0;
@@ -38,13 +38,13 @@ int read_unit(const YamlNode& node, const KindRow& row, std::size_t rotors) {
 
 /// An enumerator by its name, of more than a line lists.
 template <class Enum>
-Enum read_word(const YamlNode& node, std::string_view what, std::string_view ask = {}) {
+Enum read_word(const YamlNode& node, std::string_view what, std::string_view where = {}) {
     const std::string word = read_text(node);
     const std::optional<Enum> found = enumerator_of<Enum>(word);
     if (!found) {
         const auto& names = kNamesOf<Enum>;
         fail(node, fmt::format("{} is no {}{}", in_quotes(word), what,
-                               hint(word, {names.begin(), names.end()}, ask)));
+                               hint(word, {names.begin(), names.end()}, where)));
     }
     return *found;
 }

@@ -52,7 +52,7 @@ void read_wall(const YamlNode* node, const fs::path& root, const Section& sectio
 /// [[seed, weight], ...]; weights add up by their squares, so that one of them must not be 0.
 NoiseBlend read_noise(const YamlNode& node) {
     NoiseBlend noise;
-    bool heard = false;
+    bool noticeable = false;
     for (const YamlNode& item :
          read_list(node, "a list of seeds and weights, as in [[1, 0.6], [2, 0.8]]")) {
         const auto& pair = read_list(item, "a seed and its weight, as in [1, 0.6]", 2, 2);
@@ -60,9 +60,9 @@ NoiseBlend read_noise(const YamlNode& node) {
         noise.push_back(
             {read_count(pair[0]),
              read_number(pair[1], {{}, "-", -kMostWeight, kMostWeight, &weight, {}, {}})});
-        heard = heard || std::abs(noise.back().weight) > kLeastWeight;
+        noticeable = noticeable || std::abs(noise.back().weight) > kLeastWeight;
     }
-    if (!noise.empty() && !heard) {
+    if (!noise.empty() && !noticeable) {
         fail(node, fmt::format("needs a weight beyond {} or -{}", kLeastWeight, kLeastWeight));
     }
     return noise;
@@ -114,6 +114,8 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
         if (is_section(root.find(name))) {
             read_choices(root.find(name), section(name));
         }
+        // What is derived may depend on the section's own keys, which win.
+        read_section(root.find(name), section(name));
         derive(section(name), scenario);
         read_section(root.find(name), section(name));
     }

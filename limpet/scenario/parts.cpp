@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/sections.hpp"
@@ -203,11 +205,7 @@ Surface load_surface(const std::string& name, const fs::path& root, const YamlNo
     if (const YamlNode* row = all.find(name)) {
         return surface_of(*row);
     }
-    std::vector<std::string> names;
-    for (const YamlNode& row : all.children) {
-        names.push_back(row.key);
-    }
-    const std::string what = unknown_name(name, "surface", names);
+    const std::string what = unknown_name(name, "surface", names_of(all.children, &YamlNode::key));
     if (at != nullptr) {
         fail(*at, what);
     }
@@ -225,8 +223,11 @@ vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const
         } catch (const InputError& error) {
             fail(node, error.what());
         }
-        airframe = load_vehicle_file(is_path(base) && file.is_relative() ? folder / file : file,
-                                     &of_base.emplace());
+        file = is_path(base) && file.is_relative() ? folder / file : file;
+        if (is_there(file) && !is_file(file) && !is_folder(file)) {  // may never end, or begin
+            fail(node, fmt::format("{} is a pipe or a device, must be a file", shown_path(file)));
+        }
+        airframe = load_vehicle_file(file, &of_base.emplace());
     }
     std::vector<std::string> keys = of_base.value_or(std::vector<std::string>());
     if (node.kind == YamlNode::Kind::map) {

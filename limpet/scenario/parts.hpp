@@ -25,7 +25,7 @@ namespace limpet::scenario {
 [[nodiscard]] vehicle::Airframe load_vehicle(const std::string& wanted,
                                              const std::filesystem::path& root);
 /// @param name  key of root/surfaces.yaml
-/// @param at    where it is asked for, to be named when there is none
+/// @param at    where it is requested, to be named when there is none
 [[nodiscard]] Surface load_surface(const std::string& name, const std::filesystem::path& root,
                                    const YamlNode* at = nullptr);
 /// @return all of them, in the file's order

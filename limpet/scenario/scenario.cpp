@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/scenario/scenario.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "limpet/core/errors.hpp"

@@ -9,7 +9,6 @@
 
 #include "limpet/autopilot/autopilots.hpp"
 #include "limpet/autopilot/parameters.hpp"
-#include "limpet/autopilot/position_source.hpp"
 #include "limpet/core/atmosphere.hpp"
 #include "limpet/core/enum_names.hpp"
 #include "limpet/core/frames.hpp"
@@ -120,7 +119,7 @@ struct Scenario {
     autopilot::AutopilotParameters autopilot;
     const autopilot::AutopilotKind* autopilot_kind =
         &autopilot::kCascade;  ///< that flies with them
-    /// What tells it where it is; sets parameters of `autopilot` that no key sets.
+    /// Where its position comes from; sets parameters of `autopilot` that no key sets.
     const autopilot::PositionSource* aiding = &autopilot::kMotionCaptureAiding;
     guidance::PerchingParameters guidance;
     SimulationParameters simulation;

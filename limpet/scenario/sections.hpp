@@ -26,7 +26,7 @@ struct Choice {
     std::function<void(std::size_t)> choose;
 };
 
-/// Rows that stand together in a YAML text, and the names that they stand beside. The one place
+/// Rows that stand together in a YAML text, and the names that they stand next to. The one place
 /// that says which table is read where: loader, writer, `limpet params` and the tests go through
 /// it.
 struct Section {
@@ -41,7 +41,7 @@ struct Section {
 /// Place and direction of one rotor: an item of a vehicle's list `rotors`.
 [[nodiscard]] std::vector<BoundParameter> rotor_rows(vehicle::Rotor& rotor);
 
-/// Section `suction`: the cup, every pressure model, the lip. The model's name is a text beside
+/// Section `suction`: the cup, every pressure model, the lip. The model's name is a text next to
 /// them.
 [[nodiscard]] std::vector<BoundParameter> suction_rows(suction::CupParameters& cup);
 /// @param section  null or empty: nothing is set

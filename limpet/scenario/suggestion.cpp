@@ -69,12 +69,12 @@ std::string_view nearest(std::string_view wrong, const std::vector<std::string_v
 }
 
 std::string hint(std::string_view wrong, const std::vector<std::string_view>& names,
-                 std::string_view ask) {
+                 std::string_view where) {
     if (const std::string_view name = nearest(wrong, names); !name.empty()) {
         return fmt::format(", did you mean {}?", name);
     }
-    if (names.size() > kHandful && !ask.empty()) {
-        return fmt::format("; {}", ask);
+    if (names.size() > kHandful && !where.empty()) {
+        return fmt::format("; {}", where);
     }
     return names.empty() ? std::string("; there are none")
                          : fmt::format("; there are {}", fmt::join(names, ", "));

@@ -17,9 +17,9 @@ namespace limpet::scenario {
                                        const std::vector<std::string_view>& names);
 
 /// End of an error message: `, did you mean hold_s?` or `; there are a, b, c` when nothing is near.
-/// @param names  what is allowed; with more than a handful `ask` is shown in their place
-/// @param ask    where to find them, "`limpet params guidance` lists what there is"; may be empty
+/// @param names  what is allowed; with more than a handful `where` is shown in their place
+/// @param where    where to find them, "`limpet params guidance` lists what there is"; may be empty
 [[nodiscard]] std::string hint(std::string_view wrong, const std::vector<std::string_view>& names,
-                               std::string_view ask = {});
+                               std::string_view where = {});
 
 }  // namespace limpet::scenario

@@ -75,9 +75,9 @@ void write_vehicle(Writer& writer, vehicle::Airframe& airframe) {
         std::string item;
         for (const BoundParameter& row : rotor_rows(rotor)) {
             const bool place = row.name == "x_m" || row.name == "y_m";
-            const bool said =
+            const bool stated =
                 rotor.below_m != usual.below_m || rotor.thrust_share != usual.thrust_share;
-            if (place || said) {
+            if (place || stated) {
                 item += fmt::format("{}: {}, ", row.name, value_text(row.value));
             }
         }
@@ -112,7 +112,7 @@ void write_wall(Writer& writer, const Section& section, const WallSetup& wall) {
     }
 }
 
-/// Those that are not as they are where nothing is said.
+/// Those that are not as they are where nothing is stated.
 std::vector<Choice> chosen_ones(std::vector<Choice> choices) {
     std::erase_if(choices, [](const Choice& choice) { return choice.chosen == 0; });
     return choices;

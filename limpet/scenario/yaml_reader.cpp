@@ -2,7 +2,6 @@
 #include "limpet/scenario/yaml_reader.hpp"
 
 #include <fmt/format.h>
-#include <locale.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,6 +10,7 @@
 #include <limits>
 #include <optional>
 
+#include "limpet/core/words.hpp"
 #include "limpet/scenario/suggestion.hpp"
 
 namespace limpet::scenario {
@@ -48,17 +48,6 @@ bool is_not_finite(const std::string& text) {
     return word == "nan" || word == "inf" || word == "infinity";
 }
 
-/// Decimal only, and the same in every locale.
-std::optional<double> number_of(const std::string& text) {
-    if (text.find_first_not_of("0123456789+-.eE") != std::string::npos) {
-        return std::nullopt;
-    }
-    static const locale_t kClassic = newlocale(LC_ALL_MASK, "C", nullptr);
-    char* end = nullptr;
-    const double value = strtod_l(text.c_str(), &end, kClassic);
-    return !text.empty() && end == text.c_str() + text.size() ? std::optional(value) : std::nullopt;
-}
-
 }  // namespace
 
 bool is_section(const YamlNode* section) {
@@ -72,10 +61,10 @@ bool is_section(const YamlNode* section) {
 }
 
 void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowed,
-                std::string_view ask) {
+                std::string_view where) {
     for (const YamlNode& child : map.children) {
         if (std::find(allowed.begin(), allowed.end(), child.key) == allowed.end()) {
-            fail(child, "unknown key" + hint(child.key, allowed, ask));
+            fail(child, "unknown key" + hint(child.key, allowed, where));
         }
     }
 }

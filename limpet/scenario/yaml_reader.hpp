@@ -23,14 +23,14 @@ namespace limpet::scenario {
 [[nodiscard]] bool is_section(const YamlNode* section);
 
 /// Refuses every key that is not allowed, with the nearest one that is.
-/// @param ask  where to find a long list of keys
+/// @param where  where to find a long list of keys
 void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowed,
-                std::string_view ask = {});
+                std::string_view where = {});
 
 /// @throws InputError when the map has no such key
 [[nodiscard]] const YamlNode& needed(const YamlNode& map, std::string_view key);
 
-/// @return nothing for what is no plain number; finite or not is not asked
+/// @return nothing for what is no plain number; may be infinite (1e999)
 [[nodiscard]] std::optional<double> number_in(const YamlNode& node);
 /// A number in the range of its row, whole for a count; of a switch true, false, 0 or 1.
 [[nodiscard]] double read_number(const YamlNode& node, const BoundParameter& row);
@@ -102,7 +102,7 @@ void read_word_if_given(
     }
 }
 
-/// @return the same digits for the same bits, as few as tell it from its neighbours
+/// @return the same digits for the same bits, as few as distinguish it from its neighbours
 [[nodiscard]] std::string number_text(double value);
 /// @return the same, of a switch "true" or "false"
 [[nodiscard]] std::string value_text(const ParameterValue& value);

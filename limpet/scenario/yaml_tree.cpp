@@ -8,7 +8,9 @@
 #include <unordered_set>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/one_line.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/scenario/data_folder.hpp"
@@ -26,12 +28,6 @@ constexpr std::size_t kLongestShown = 60;
 /// A command line has no lines worth counting.
 std::string place_of(const std::string& name, const yaml_mark_t& mark) {
     return name.rfind(kSet, 0) == 0 ? name : fmt::format("{}:{}", name, mark.line + 1);
-}
-
-std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-    return text;
 }
 
 std::string text_of(const yaml_char_t* text) {
@@ -252,6 +248,12 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
     if (text.size() > kYamlFile.most_MB * 1'000'000) {  // that of a recording came another way
         throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
     }
+    if (const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+        first != text.npos && text[first] == '<' && text.compare(first, 2, "<<") != 0) {
+        throw InputError(name +
+                         ":1: is XML, not YAML; a URDF or MJCF is named in a vehicle's file, under "
+                         "`model` (docs/own_vehicle.md)");
+    }
     TreeBuilder builder(name);
     Parser parser(text);
     while (const yaml_event_t* event = parser.next(name)) {
@@ -266,9 +268,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
 }
 
 std::string read_yaml_text(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (const std::string name = shipped_name_of(path);
-        !name.empty() && !std::filesystem::exists(path, ignored)) {
+    if (const std::string name = shipped_name_of(path); !name.empty() && !is_there(path)) {
         throw InputError(fmt::format("{}: no such file; {} ships, and goes by that name alone",
                                      shown_path(path), name));
     }
@@ -298,10 +298,10 @@ std::string shown(std::string_view text) {
 }
 
 void fail(const YamlNode& node, std::string_view what) {
-    const bool told =
+    const bool stated =
         node.path.empty() || node.place.rfind(std::string(kSet) + node.path + "=", 0) == 0;
-    throw InputError(told ? fmt::format("{}: {}", node.place, what)
-                          : fmt::format("{}: {}: {}", node.place, shown(node.path), what));
+    throw InputError(stated ? fmt::format("{}: {}", node.place, what)
+                            : fmt::format("{}: {}: {}", node.place, shown(node.path), what));
 }
 
 }  // namespace limpet::scenario

@@ -8,7 +8,7 @@
 
 namespace limpet::scenario {
 
-/// One node of a YAML text that knows where it was written and how it is called, so that whoever
+/// One node of a YAML text that knows where it was written and how it is called, so that who
 /// reads it can say `scenarios/x.yaml:12: guidance.dock_speed_m_s: ...`.
 ///
 /// The part of YAML that scenarios need: maps with plain keys, lists and scalars. Duplicate keys,

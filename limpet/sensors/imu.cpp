@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/sensors/imu.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace limpet::sensors {

@@ -5,8 +5,8 @@
 
 namespace limpet::sensors {
 
-/// Pose of B from cameras in the room, stamped at the exposure and late by the network. A sample
-/// that drops out never arrives.
+/// Pose of B from cameras in the laboratory, stamped at the exposure and late by the network. A
+/// sample that drops out never arrives.
 struct MotionCaptureSensor {
     using Reading = PoseReading;
     struct Parameters {

@@ -31,7 +31,7 @@ using Sensors = TypeList<ImuSensor,            //
 struct SensorParameters : ParametersOf<Sensors> {};
 
 /// Rows of the YAML section `sensors`. Their upper limits of rate and latency keep the samples
-/// under way below kDelayLineCapacity (delay_line.hpp).
+/// under way below kDelayLineCapacity (sensor.hpp).
 /// @param sensors  must outlive what is returned
 [[nodiscard]] std::vector<BoundParameter> sensor_rows(SensorParameters& sensors);
 

@@ -2,18 +2,17 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <optional>
-#include <string_view>
+#include <cstdint>
 #include <type_traits>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/core/parameters.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/core/signals/truth.hpp"
 #include "limpet/core/time.hpp"
-#include "limpet/sensors/delay_line.hpp"
-#include "limpet/sensors/noise.hpp"
 
 namespace limpet::plant {
 class Plant;
@@ -43,11 +42,82 @@ namespace limpet::sensors {
 //
 //   kReadings           the fields of Readings, one a unit
 //
-// or, with nobody in the loop to read them, to the recording alone:
+// or, where no station reads them, to the recording alone:
 //
 //   kTopic, kMessage    "/sensors/NAME", "limpet_msgs/msg/Name"
 //   kColumns            names of the numbers, with their units
 //   numbers(Reading)    as many
+
+/// One step of a bias that wanders and forgets: b <- keep b + kick n, n standard normal.
+struct GaussMarkov {
+    double keep = 1.0;
+    double kick = 0.0;
+};
+
+/// Exact solution of db = -b / tau dt + walk dW over a step.
+/// @param walk   density of the driving noise [unit of b / s / rtHz], >= 0
+/// @param tau_s  correlation time, > 0; for dt << tau this is a random walk of walk * sqrt(t)
+[[nodiscard]] inline GaussMarkov gauss_markov(double walk, double tau_s, double dt_s) {
+    return {.keep = std::exp(-dt_s / tau_s),
+            .kick = walk * std::sqrt(-0.5 * tau_s * std::expm1(-2.0 * dt_s / tau_s))};
+}
+
+/// @param step  of the reading, >= 0; 0 leaves the value as it is
+[[nodiscard]] inline double quantised(double value, double step) {
+    return step > 0.0 ? step * std::round(value / step) : value;
+}
+
+/// due() for a rate that comes from a parameter; one below 1 Hz is never due.
+[[nodiscard]] inline bool sampled(Tick tick, int rate_Hz) {
+    constexpr auto kSecond = static_cast<std::uint32_t>(kTicksPerSecond);
+    const auto within = static_cast<std::uint32_t>(tick % kTicksPerSecond);  // one for all sensors
+    const auto rate = static_cast<std::uint32_t>(rate_Hz);
+    return rate_Hz >= 1 && within * rate % kSecond < rate;
+}
+
+/// Samples that can be under way at once; the parameter table's limits stay below it.
+inline constexpr std::size_t kDelayLineCapacity = 64;
+
+/// Samples on their way from the sensor to the reader: first in, first out, no heap.
+template <class T>
+class DelayLine {
+public:
+    /// @param arrival  tick at which deliver() hands it out, never before that of an earlier sample
+    void send(const Sample<T>& sample, Tick arrival) {
+        require(count_ < kDelayLineCapacity, "a sensor's delay line has space");
+        slots_[(first_ + count_) % kDelayLineCapacity] = {.sample = sample, .arrival = arrival};
+        ++count_;
+    }
+
+    /// Overwrites `latest` with the newest sample that has arrived by `now`; leaves it when none
+    /// has.
+    void deliver(Tick now, Sample<T>& latest) {
+        while (count_ > 0 && slots_[first_].arrival <= now) {
+            latest = slots_[first_].sample;
+            first_ = (first_ + 1) % kDelayLineCapacity;
+            --count_;
+        }
+    }
+
+    template <class Self, class Each>
+    static void visit_members(Self& self, Each&& each) {
+        each(self.slots_, self.first_, self.count_);
+    }
+
+private:
+    struct Slot {
+        Sample<T> sample;
+        Tick arrival = 0;
+    };
+    std::array<Slot, kDelayLineCapacity> slots_{};
+    std::size_t first_ = 0;
+    std::size_t count_ = 0;
+};
+
+/// @return the tick at which a sample of `tick` arrives, to the nearest tick
+[[nodiscard]] inline Tick arrival(Tick tick, double latency_s) {
+    return tick + std::llround(latency_s / kTick_s);
+}
 
 /// Where sensors sit that are not at B's origin: known to the vehicle, not to `sensors:`.
 struct SensorMounts {
@@ -99,7 +169,8 @@ struct SensorUnit {
     using Reading = typename Sensor::Reading;
     typename Sensor::State state;
     std::conditional_t<kIsLate<Sensor>, DelayLine<Reading>, Nothing> line = {};
-    std::conditional_t<kIsRead<Sensor>, Nothing, Sample<Reading>> heard = {};  ///< by nobody
+    std::conditional_t<kIsRead<Sensor>, Nothing, Sample<Reading>> heard =
+        {};  ///< that no station reads
 };
 
 /// Switches a unit on: draws the biases of this flight.

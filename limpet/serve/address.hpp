@@ -19,7 +19,7 @@ struct Target {
 /// @throws InputError if it is no path, or badly escaped
 [[nodiscard]] Target parse_target(std::string_view target, std::string_view wanted);
 
-/// In a time that does not tell how much of it was right.
+/// In a time that does not depend on how much of it was right.
 [[nodiscard]] bool same_token(std::string_view shown, std::string_view wanted);
 
 /// `localhost` or an address in digits, with or without port: a name could be any page's, made to

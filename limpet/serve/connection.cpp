@@ -67,7 +67,7 @@ std::size_t Shared::known_ones() const {
                       [](const Connection* connection) { return connection->known(); }));
 }
 
-void Shared::make_room() {
+void Shared::make_space() {
     if (connections.size() - known_ones() < options.most_connections) {
         return;
     }
@@ -250,21 +250,21 @@ private:
 
     /// Nothing once it has become a WebSocket.
     std::optional<Response> respond(bool upgrade) {
-        auto& asked = parser_->get();
-        if (asked.count(http::field::host) > 1 || asked.count(http::field::origin) > 1) {
+        auto& message = parser_->get();
+        if (message.count(http::field::host) > 1 || message.count(http::field::origin) > 1) {
             return Response{.status = 400, .body = "one Host and one Origin, not several\n"};
         }
-        const std::string host = text_of(asked[http::field::host]);
+        const std::string host = text_of(message[http::field::host]);
         if (!host_allowed(host)) {
             return Response{.status = 403,
                             .body = "call this by localhost or an address in digits\n"};
         }
-        if (!origin_allowed(text_of(asked[http::field::origin]), host, shared_.options.origins)) {
+        if (!origin_allowed(text_of(message[http::field::origin]), host, shared_.options.origins)) {
             return Response{.status = 403, .body = "pages of others may not come in\n"};
         }
         try {
             const std::string& token = shared_.options.token;
-            Target target = parse_target(text_of(asked.target()), token);
+            Target target = parse_target(text_of(message.target()), token);
             if (!token.empty() && !same_token(target.token, token)) {
                 return Response{.status = 403,
                                 .body = "the address lacks its token: take it as printed\n"};
@@ -291,27 +291,27 @@ private:
     }
 
     std::optional<Response> become_websocket(const std::string& path) {
-        const auto& asked = parser_->get();
+        const auto& message = parser_->get();
         const Routes::Socket* route = find_route(shared_.routes.sockets, path);
         if (route == nullptr) {
             return Response{.status = 404, .body = "no such WebSocket\n"};
         }
         auto subprotocol =
-            choose_subprotocol(route->subprotocols, asked[http::field::sec_websocket_protocol]);
+            choose_subprotocol(route->subprotocols, message[http::field::sec_websocket_protocol]);
         if (!subprotocol) {
             return Response{.status = 400, .body = "none of the offered subprotocols is spoken\n"};
         }
         stream_.expires_never();  // the WebSocket has times of its own
         std::make_shared<WebSocket>(std::move(stream_), shared_, *route->listener,
                                     std::move(*subprotocol))
-            ->run(asked);
+            ->run(message);
         return std::nullopt;
     }
 
     Response call(Request request) {
-        auto& asked = parser_->get();
-        const bool is_get = asked.method() == http::verb::get;
-        const bool is_post = asked.method() == http::verb::post;
+        auto& message = parser_->get();
+        const bool is_get = message.method() == http::verb::get;
+        const bool is_post = message.method() == http::verb::post;
         const Routes& routes = shared_.routes;
         const Handler* handler = is_get    ? find_route(routes.get, request.path)
                                  : is_post ? find_route(routes.post, request.path)
@@ -322,9 +322,9 @@ private:
             return {.status = known ? 405U : 404U,
                     .body = known ? "not by this method\n" : "no such page\n"};
         }
-        request.method = text_of(asked.method_string());
-        request.content_type = text_of(asked[http::field::content_type]);
-        request.body = std::move(asked.body());
+        request.method = text_of(message.method_string());
+        request.content_type = text_of(message[http::field::content_type]);
+        request.body = std::move(message.body());
         return (*handler)(request);
     }
 
@@ -333,7 +333,8 @@ private:
         answer_.version(11);
         answer_.result(response.status);
         answer_.set(http::field::content_type, response.content_type);
-        // A page with a token in its address tells nobody, and nobody keeps or guesses what it is.
+        // A page with a token in its address sends it to nobody, and nobody keeps or guesses what
+        // it is.
         answer_.set(http::field::cache_control, "no-store");
         answer_.set("Referrer-Policy", "no-referrer");
         answer_.set("X-Content-Type-Options", "nosniff");

@@ -5,7 +5,6 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <chrono>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -29,7 +28,7 @@ struct Routes {
 class Connection {
 public:
     virtual ~Connection() = default;
-    /// Has shown the token, and so may stay; who has not makes room for newcomers.
+    /// Has shown the token, and so may stay; who has not makes space for newcomers.
     [[nodiscard]] virtual bool known() const = 0;
     /// Sends what has been queued meanwhile.
     virtual void flush() = 0;
@@ -57,7 +56,7 @@ struct Shared {
     [[nodiscard]] std::size_t known_ones() const;
     /// A place for a newcomer: the stranger who is here longest leaves where there are
     /// options.most_connections of them.
-    void make_room();
+    void make_space();
 };
 
 /// Serves requests until the client goes, or becomes a WebSocket.

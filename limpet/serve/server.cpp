@@ -64,7 +64,7 @@ struct Server::Inside {
                 return;
             }
             if (!error) {
-                shared.make_room();
+                shared.make_space();
                 fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
                 error_code ignored;
                 socket.set_option(tcp::no_delay(true), ignored);
@@ -84,7 +84,7 @@ struct Server::Inside {
         accepting = true;
     }
 
-    /// Until all is said. What throws (memory is at its end) loses its own connection alone; who
+    /// Until all is sent. What throws (memory is at its end) loses its own connection alone; who
     /// accepts and who flushes go on.
     void run() {
         for (;;) {

@@ -18,13 +18,13 @@ namespace limpet::serve {
 struct ServerOptions {
     std::string host = "127.0.0.1";  ///< IPv4 in digits, or "localhost"
     std::uint16_t port = 0;          ///< 0: any that is free
-    /// Who does not show it gets 403: as `/TOKEN/...` or `?token=TOKEN`. Empty: nobody is asked.
+    /// Who does not show it gets 403: as `/TOKEN/...` or `?token=TOKEN`. Empty: no token is needed.
     std::string token = {};
     /// Pages of others that may come in too ("https://app.example.org", "http://localhost:*" at any
     /// port); those of this server and programs, which name no origin, may anyway.
     std::vector<std::string> origins = {};
     /// Of those who have shown the token, and as many of those who have not yet: of these the one
-    /// who has been there longest makes room for the next.
+    /// who has been there longest makes space for the next.
     std::size_t most_connections = 32;
     std::size_t most_request_bytes = std::size_t{1} << 20U;  ///< a body, a frame from a client
     std::size_t most_queued_bytes = std::size_t{1} << 20U;   ///< to a client, its frame queue
@@ -91,12 +91,12 @@ public:
     void get(std::string path, Handler handler);
     void post(std::string path, Handler handler);
     /// @param subprotocols  those spoken; the first of them that a client offers is taken, a client
-    ///                      that offers none of them gets 400. Empty: none is asked for.
+    ///                      that offers none of them gets 400. Empty: none is requested.
     /// @param listener      outlives the server
     void websocket(std::string path, std::vector<std::string> subprotocols, Listener& listener);
 
     void start();
-    /// Sends what is queued, to whoever takes some of it within five seconds and for thirty at
+    /// Sends what is queued, to who takes some of it within five seconds and for thirty at
     /// most, ends all sessions and the thread.
     void stop();
 

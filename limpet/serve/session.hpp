@@ -7,7 +7,6 @@
 #include <deque>
 #include <initializer_list>
 #include <mutex>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,12 +20,12 @@ public:
     explicit FrameQueue(std::size_t most_bytes);
 
     enum class Kind : std::uint32_t {
-        stream,  ///< binary; where there is no room, what was is dropped for what is
+        stream,  ///< binary; where there is no space, what was is dropped for what is
         kept,    ///< binary
         text     ///< kept
     };
     /// One frame made of `parts`. Frames that are dropped are counted.
-    /// @return false where there is no room, though all that streams was dropped
+    /// @return false where there is no space, though all that streams was dropped
     bool put(Kind kind, std::initializer_list<std::string_view> parts);
 
     struct Frame {
@@ -62,10 +61,10 @@ public:
     /// @return false: dropped, the queue is full or the client has gone
     bool send_text(std::string_view text);
     bool send_binary(std::initializer_list<std::string_view> parts);
-    /// Of many that follow one another, each older than the next: whoever reads slowly gets the
+    /// Of many that follow one another, each older than the next: who reads slowly gets the
     /// newest ones.
     bool stream(std::initializer_list<std::string_view> parts);
-    /// What a client has asked for and no queue has room for, on the server's thread: one of any
+    /// What a client has requested and no queue has space for, on the server's thread: one of any
     /// size, more up to 64 MiB in all. They go out when the queue is empty.
     /// @return false: too much waits already, or the client has gone
     bool send_large(std::string bytes);
@@ -74,7 +73,7 @@ public:
 
     [[nodiscard]] bool is_open() const { return open_; }
     [[nodiscard]] const std::string& subprotocol() const { return subprotocol_; }
-    /// Frames that had no room.
+    /// Frames that had no space.
     [[nodiscard]] std::uint64_t dropped() const { return queue_.dropped(); }
 
 private:

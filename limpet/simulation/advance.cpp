@@ -79,7 +79,7 @@ struct AirLoad {
     return swell_motion(model.swell, seconds(state.tick));
 }
 
-/// The rotors beside ground or ceiling, seldom.
+/// The rotors next to ground or ceiling, seldom.
 [[gnu::noinline]] Wrench near_wrench_B(const FlightModel& model,
                                        const RotorList<double>& speeds_rad_s,
                                        const Kinematics& base, const Vector3& wind_W_m_s) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/pace.hpp"
 #include "limpet/simulation/step.hpp"
 
@@ -17,7 +18,8 @@ struct Still {
     double near_m;
     double slow_m_s;
 };
-/// It stands a little beside its set-point in wind. Source: PX4 v1.15.1 in 6 m/s, seen up to 0.18 m
+/// It stands a little off its set-point in wind. Source: PX4 v1.15.1 in 6 m/s, seen up to
+/// 0.18 m
 constexpr Still kByMotionCapture{.near_m = 0.3, .slow_m_s = 0.08};
 /// What it follows wanders. Source: PX4 v1.15.1 hovering for 110 s, seen up to 0.37 m and 0.34 m/s
 constexpr Still kByGps{.near_m = 0.5, .slow_m_s = 0.5};
@@ -37,13 +39,10 @@ FlightModel hovering(const FlightModel& model) {
 void rest_on_stand(const FlightModel& model, const Vector3& stand_W_m, plant::Plant& plant,
                    Truth& truth) {
     plant.set_pose(stand_W_m, attitude(model.start));
-    truth.base = plant.kinematics(plant::Body::base);
-    if (model.airframe.has_cup) {
-        truth.cup = plant.kinematics(plant::Body::cup);
-    }
+    see_motion(model, truth, plant);
 }
 
-/// The start as the autopilot believes it, told by where it believes the stand to be: GPS has
+/// The start as the autopilot believes it, from where it believes the stand to be: GPS has
 /// another origin and is off by metres, motion capture by millimetres.
 Vector3 believed_start(const Estimate& on_stand, double stand_below_m) {
     return on_stand.p_WB_m - Vector3(0.0, 0.0, stand_below_m);

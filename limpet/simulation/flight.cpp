@@ -11,9 +11,9 @@
 #include "limpet/scenario/fault_table.hpp"
 #include "limpet/simulation/bring_up.hpp"
 #include "limpet/simulation/flight_log.hpp"
+#include "limpet/simulation/flight_text.hpp"
 #include "limpet/simulation/log_beside.hpp"
 #include "limpet/simulation/pace.hpp"
-#include "limpet/simulation/result_json.hpp"
 #include "limpet/simulation/step.hpp"
 
 namespace limpet::simulation {
@@ -23,21 +23,17 @@ namespace {
 constexpr double kFastest_rad_s = 200.0;
 constexpr double kFastest_m_s = 300.0;
 
-}  // namespace
-
-namespace {
-
 /// Guidance ends a mission by what it believes; where the truth is another, the outcome says so.
-guidance::Ending as_it_was(const guidance::Ending& told, const FlightModel& model,
+guidance::Ending as_it_was(const guidance::Ending& ending, const FlightModel& model,
                            const FlightState& state, const Metrics& metrics) {
     if (model.mount != vehicle::Mount::free || !model.task.perch) {
-        return told;
+        return ending;
     }
     const bool sealed = suction::is_sealed(state.cup.status.phase);
     const auto aborted = [](std::string_view reason) {
         return guidance::Ending{.outcome = Outcome::aborted, .reason = reason};
     };
-    switch (told.outcome) {
+    switch (ending.outcome) {
         case Outcome::released:
             if (sealed || std::isnan(metrics.release_s)) {
                 return aborted("believed itself released: the cup did not let go");
@@ -59,7 +55,7 @@ guidance::Ending as_it_was(const guidance::Ending& told, const FlightModel& mode
         case Outcome::timed_out:
         case Outcome::interrupted: break;
     }
-    return told;
+    return ending;
 }
 
 }  // namespace
@@ -136,17 +132,17 @@ void Flight::conclude() {
     if (ended_s < 0.0) {
         return;
     }
-    const guidance::Ending& told = *state_.guidance.ending;
+    const guidance::Ending& ending = *state_.guidance.ending;
     const double time_s = seconds(state_.tick);
     if (ended()) {
         if (ended_s < time_s) {
             state_.ending->reason = std::string_view(fmt::format(
-                "{}; guidance had ended: {}", state_.ending->reason.view(), told.reason.view()));
+                "{}; guidance had ended: {}", state_.ending->reason.view(), ending.reason.view()));
         }
     } else if (outside_.guidance != nullptr || time_s - ended_s >= kAfterGuidance_s ||
                time_s >= model_->simulation.time_limit_s ||
                true_end(seen_.end, *model_, state_) != TrueEnd::moving) {
-        state_.ending = as_it_was(told, *model_, state_, seen_.metrics);
+        state_.ending = as_it_was(ending, *model_, state_, seen_.metrics);
     }
 }
 
@@ -224,31 +220,31 @@ public:
     Recording(const std::shared_ptr<const FlightModel>& model,
               const std::filesystem::path& recording, const FlightConduct& conduct)
         : model_(*model) {
-        if (recording.empty() && conduct.beside == nullptr) {
+        if (recording.empty() && conduct.mirror == nullptr) {
             return;
         }
         log_.emplace(recording, *model,
-                     FlightLog::Options{.beside = conduct.beside,
+                     FlightLog::Options{.mirror = conduct.mirror,
                                         .brief = conduct.brief,
                                         .topics = conduct.topics,
                                         .compress = conduct.compress});
-        // Who watches beside it is shown each tick as it is.
-        if (conduct.outside.autopilot != nullptr && conduct.beside == nullptr) {
-            beside_.emplace(*log_, model);
+        // An observer is shown each tick as it is.
+        if (conduct.outside.autopilot != nullptr && conduct.mirror == nullptr) {
+            mirror_.emplace(*log_, model);
         }
     }
 
     void tick(const FlightState& state, const guidance::EventList& happened) {
-        if (beside_) {
-            beside_->tick(state, happened);
+        if (mirror_) {
+            mirror_->tick(state, happened);
         } else if (log_) {
             log_->tick(model_, state, happened);
         }
     }
 
     void finish(const FlightResult& result) {
-        if (beside_) {
-            beside_->finish();
+        if (mirror_) {
+            mirror_->finish();
         }
         if (log_) {
             log_->finish(summary_json(result));
@@ -258,7 +254,7 @@ public:
 private:
     const FlightModel& model_;
     std::optional<FlightLog> log_;
-    std::optional<LogBeside> beside_;
+    std::optional<LogBeside> mirror_;
 };
 
 }  // namespace

@@ -31,14 +31,14 @@ public:
 
     /// One base tick. Does nothing once the flight has ended. A mission that guidance has ended is
     /// flown on until the truth has come to an end too (true_end.hpp), 10 s at most; one that is
-    /// guided from elsewhere ends when it is told to.
+    /// guided from elsewhere ends on command.
     /// @return what happened in it, valid until the next tick
     const guidance::EventList& tick();
     /// Ends it from outside, with a reason. Nothing when it has ended already.
     void stop(Outcome outcome, std::string_view reason);
     /// From the next tick on the built-in autopilot flies with these; the model becomes a copy of
     /// this flight's own. Each one that changes is an event of the next ticks, so that the
-    /// recording tells.
+    /// recording shows.
     /// @throws InputError naming the first that is out of its range; then nothing has changed
     void set_autopilot(const autopilot::AutopilotParameters& parameters);
     /// An operator's word to a vehicle that rests on the wall, as guidance::end_rest().
@@ -91,7 +91,7 @@ struct FlightConduct {
     bool brief = false;                     ///< a recording of what a picture needs, at 25 Hz
     std::vector<std::string> topics = {};   ///< of the recording; none: all of them
     bool compress = true;                   ///< the recording
-    record::MessageSink* beside = nullptr;  ///< takes what the recording takes, or would take
+    record::MessageSink* mirror = nullptr;  ///< takes what the recording takes, or would take
 };
 
 struct FlightPerformance {
@@ -121,7 +121,7 @@ struct FlightResult {
     std::vector<std::string> faults_not_begun;  ///< of the scenario's table, as YAML
     Metrics metrics;
     FlightPerformance performance;
-    std::optional<autopilot::AutopilotIdentity> autopilot;  ///< one behind a wire that told
+    std::optional<autopilot::AutopilotIdentity> autopilot;  ///< one behind a wire that reported
     std::filesystem::path recording;                        ///< empty: none
     std::uint64_t state_hash = 0;
 };

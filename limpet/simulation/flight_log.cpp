@@ -8,7 +8,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/version.hpp"
-#include "limpet/meshes/stl_reader.hpp"
+#include "limpet/meshes/readers.hpp"
 #include "limpet/models/drawing.hpp"
 #include "limpet/models/finish.hpp"
 #include "limpet/models/model_writer.hpp"
@@ -65,7 +65,7 @@ namespace {
 record::RecordingInfo describe(const FlightModel& model, const FlightLog::Options& options) {
     const scenario::Scenario& scenario = *model.scenario;
     record::RecordingInfo info;
-    info.beside = options.beside;
+    info.mirror = options.mirror;
     info.compress = options.compress;
     info.topics = options.topics;
     info.scenario = scenario.name;

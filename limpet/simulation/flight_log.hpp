@@ -46,7 +46,7 @@ struct Moment {
 class FlightLog {
 public:
     struct Options {
-        record::MessageSink* beside = nullptr;  ///< takes the same messages; null: nobody
+        record::MessageSink* mirror = nullptr;  ///< takes the same messages; null: nobody
         bool brief = false;  ///< no sample is recorded but with the truth, at 25 Hz at most
         std::vector<std::string> topics = {};  ///< that are recorded; none: all of them
         bool compress = true;  ///< a quarter of the size, for some 40 % of the time to read it

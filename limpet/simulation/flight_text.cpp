@@ -4,12 +4,88 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/px4/airframe.hpp"
 
 namespace limpet::simulation {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json json_of(const Event& event) {
+    Json values = Json::object();
+    for (std::size_t k = 0; k < event.value_count; ++k) {
+        values[std::string(event.values[k].name)] = number(event.values[k].value);
+    }
+    return {{"t_s", event.time_s},
+            {"name", to_string(event.name)},
+            {"station", event.station},
+            {"reason", event.reason},
+            {"values", values}};
+}
+
+Json json_of(const Metrics& m) {
+    Json metrics = Json::object();
+    for (const MetricInfo& metric : metric_table()) {
+        metrics[std::string(metric.name)] = number(m.*metric.field);
+    }
+    return metrics;
+}
+
+Json loads_of(const Metrics& m) {
+    Json loads = Json::object();
+    for (const LoadPhase phase : kLoadPhases) {
+        const CupLoads& load = m.loads[static_cast<std::size_t>(phase)];
+        if (std::isfinite(load.margin_N)) {
+            loads[std::string(to_string(phase))] = {{"pull_N", load.pull_N},
+                                                    {"shear_N", load.shear_N},
+                                                    {"peel_N_m", load.peel_N_m},
+                                                    {"margin_N", load.margin_N}};
+        }
+    }
+    return loads;
+}
+
+Json json_of(const autopilot::AutopilotIdentity& who) {
+    return {{"name", who.name},
+            {"version", who.version},
+            {"git_hash", who.git_hash.empty() ? Json(nullptr) : Json(who.git_hash)},
+            {"airframe", who.airframe ? Json(*who.airframe) : Json(nullptr)},
+            {"system", who.system}};
+}
+
+Json common(const FlightResult& result) {
+    Json events = Json::array();
+    for (const Event& event : result.events) {
+        events.push_back(json_of(event));
+    }
+    Json json = {{"scenario", result.scenario},
+                 {"seed", result.seed},
+                 {"outcome", to_string(result.outcome)},
+                 {"reason", result.reason},
+                 {"true_end", to_string(result.true_end)},
+                 {"borne_out", bears_out(result.true_end, result.outcome)},
+                 {"success", is_success(result.outcome, result.true_end)},
+                 {"attempts", result.attempts},
+                 {"events", events},
+                 {"metrics", json_of(result.metrics)},
+                 {"loads", loads_of(result.metrics)}};
+    if (result.autopilot) {
+        json["autopilot"] = json_of(*result.autopilot);
+    }
+    return json;
+}
+
+std::string hex(std::uint64_t value) {
+    return fmt::format("{:016x}", value);
+}
 
 std::optional<double> value_of(const Event& event, std::string_view name) {
     for (std::size_t k = 0; k < event.value_count; ++k) {
@@ -110,14 +186,14 @@ std::string came_off_text(const FlightResult& result) {
     }
     const auto pressure_Pa = value_of(*off.lost, "pressure_Pa");
     return fmt::format(
-        "attached, and {} {:.2f} s later at {:.0f} hPa{}; limpet why asks what would "
+        "attached, and {} {:.2f} s later at {:.0f} hPa{}; limpet why finds what would "
         "hold it",
         off.lost->reason, off.lost->time_s - off.attached->time_s,
         pressure_Pa.value_or(kNaN) / 100.0,
         off.times > 1 ? fmt::format(", {} times so or alike", off.times) : "");
 }
 
-/// What the last touch asked for, where none has sealed.
+/// What the last touch required, where none has sealed.
 std::string unsealed_text(const FlightResult& result) {
     const Metrics& m = result.metrics;
     if (result.outcome != Outcome::failed_to_seal || !known(m.cup_press_max_N) ||
@@ -188,7 +264,11 @@ void add_loads(std::vector<std::string>& lines, const Emphasis& bold, const Metr
 std::string who_text(const autopilot::AutopilotIdentity& who) {
     std::string text = who.name == "stand-in" ? "the stand-in, as PX4 " : who.name + " ";
     text += who.version + (who.git_hash.empty() ? "" : " of " + who.git_hash);
-    text += who.airframe ? fmt::format(", airframe {}", *who.airframe) : "";
+    text += who.airframe             ? fmt::format(", airframe {}", *who.airframe)
+            : who.name == "stand-in" ? ""
+                                     : ", airframe not reported";
+    const std::string_view vehicle = who.airframe ? px4::px4_airframe_vehicle(*who.airframe) : "";
+    text += vehicle.empty() ? "" : fmt::format(" of {}", vehicle);
     return text + fmt::format(", system {}", who.system);
 }
 
@@ -238,8 +318,30 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Emphas
     if (result.autopilot) {
         add(lines, bold, "autopilot", who_text(*result.autopilot));
     }
-    add(lines, bold, "hash", fmt::format("{:016x}", result.state_hash));
+    add(lines, bold, "hash", hex(result.state_hash));
     return lines;
+}
+
+std::string result_json(const FlightResult& result) {
+    Json json = common(result);
+    json["performance"] = {{"simulated_s", result.performance.simulated_s},
+                           {"wall_s", result.performance.wall_s},
+                           {"real_time_factor", result.performance.real_time_factor()},
+                           {"physics_steps", result.performance.physics_steps}};
+    if (const auto own_share = result.performance.own_share(); result.autopilot && own_share) {
+        json["performance"]["own_share"] = *own_share;
+    }
+    json["recording"] = result.recording.empty() ? Json(nullptr) : Json(result.recording.string());
+    json["state_hash"] = hex(result.state_hash);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string summary_json(const FlightResult& result) {
+    Json json = common(result);
+    json["performance"] = {{"simulated_s", result.performance.simulated_s},
+                           {"physics_steps", result.performance.physics_steps}};
+    json["state_hash"] = hex(result.state_hash);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace limpet::simulation

@@ -23,4 +23,11 @@ using Emphasis = std::function<std::string(const std::string&)>;
 [[nodiscard]] std::vector<std::string> flight_summary(const FlightResult& result,
                                                       const Emphasis& bold);
 
+/// The object that `limpet fly --json` prints; figures that did not come to pass are null.
+[[nodiscard]] std::string result_json(const FlightResult& result);
+
+/// The same for the recording's attachment: without what depends on the machine (wall time,
+/// real-time factor, path), so that the same flight gives the same bytes.
+[[nodiscard]] std::string summary_json(const FlightResult& result);
+
 }  // namespace limpet::simulation

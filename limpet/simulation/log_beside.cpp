@@ -21,7 +21,7 @@ LogBeside::LogBeside(FlightLog& log, std::shared_ptr<const FlightModel> model)
 LogBeside::~LogBeside() {
     try {
         finish();
-    } catch (...) {  // the disk is full: what led here tells more
+    } catch (...) {  // the disk is full: what led here says more
         return;
     }
 }

@@ -19,7 +19,7 @@ class LogBeside {
 public:
     /// @param log  is left alone by others until finish(), or the end of this
     LogBeside(FlightLog& log, std::shared_ptr<const FlightModel> model);
-    /// Writes what is left; what is wrong then, nobody hears.
+    /// Writes what is left; an error then is not reported.
     ~LogBeside();
     LogBeside(const LogBeside&) = delete;
     LogBeside& operator=(const LogBeside&) = delete;

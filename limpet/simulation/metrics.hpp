@@ -60,7 +60,7 @@ struct Metrics {
     std::array<CupLoads, kLoadPhases.size()> loads{};
 };
 
-/// Bookkeeping beside them.
+/// Bookkeeping next to them.
 struct MetricsMemory {
     double touch_s = kNaN;
     double pump_off_s = kNaN;

@@ -36,7 +36,7 @@ struct FlightModel {
     vehicle::NearnessModel nearness;
     vehicle::SwellModel swell;
     vehicle::PayloadModel payload;
-    /// Swell, payload or mount may push, not air and cup alone; kept, for each step asks.
+    /// Swell, payload or mount may push, not air and cup alone; kept, as each step needs it.
     bool pushed_by_more = false;
     faults::FaultsModel faults;
     scenario::Start start;

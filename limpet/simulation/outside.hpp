@@ -12,7 +12,7 @@
 
 namespace limpet::simulation {
 
-/// Events that guidance elsewhere tells in one tick at most; the cup may have some of its own.
+/// Events that guidance elsewhere reports in one tick at most; the cup may have some of its own.
 inline constexpr std::size_t kMostEvents = 4;
 
 /// Guidance elsewhere, in place of ours.

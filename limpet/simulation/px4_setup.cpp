@@ -7,11 +7,11 @@
 
 namespace limpet::simulation {
 
-px4::Px4Airframe px4_airframe(const scenario::Scenario& scenario, int id) {
+px4::Px4Airframe px4_airframe(const scenario::Scenario& scenario, std::optional<int> id) {
     const vehicle::Airframe& vehicle = scenario.airframe;
     px4::Px4Airframe airframe;
     airframe.name = vehicle.name;
-    airframe.id = id;
+    airframe.id = id.value_or(px4::px4_airframe_id(vehicle.name));
     airframe.rotors = scenario::rotor_geometry(vehicle);
     airframe.battery_cells = vehicle.battery.cells;
     airframe.battery_capacity_Ah = vehicle.battery.capacity_Ah;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/rig.hpp"
 
-#include <algorithm>
-
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/observe.hpp"
 
@@ -27,7 +25,7 @@ void end(FlightState& state, Outcome outcome, std::string_view reason, double ti
     state.guidance.ending = guidance::Ending{.outcome = outcome, .reason = reason};
 }
 
-/// What a failed seal failed at, asked once the press has come and gone.
+/// What a failed seal failed at, judged once the press has come and gone.
 void watch_touch(const FlightModel& model, FlightState& state) {
     RigState& rig = state.rig;
     const CupPhase phase = state.cup.status.phase;
@@ -57,7 +55,7 @@ std::string_view why_not(const FlightModel& model, const RigState& rig) {
         return "contact too short: came off before the pressure was below the threshold";
     }
     if (!rig.pressed) {
-        return "not enough force: pressed less than the spot asks for";
+        return "not enough force: pressed less than the spot requires";
     }
     if (!follows(model.cup.parameters.lip, model.cup.wall)) {
         return "the wall is rounder than the lip follows";
@@ -110,7 +108,7 @@ void operate_press_rig(const FlightModel& model, FlightState& state, double time
         if (cup.phase != CupPhase::attached) {
             end(state, Outcome::failed_to_seal, why_not(model, state.rig), time_s);
         } else if (press.leak_s <= 0.0) {
-            end(state, Outcome::perched, "the cup attached, no leak was asked for", time_s);
+            end(state, Outcome::perched, "the cup attached, no leak was requested", time_s);
         } else {
             report(state, EventName::pump_off, "leaks from here", time_s, events);
             enter(state, guidance::PerchingState::releasing, time_s);

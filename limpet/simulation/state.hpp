@@ -22,7 +22,7 @@ namespace limpet::simulation {
 struct RigState {
     double advance_m = 0.0;  ///< of the clamp
     bool touched = false;
-    bool pressed = false;   ///< harder than the spot asks for
+    bool pressed = false;   ///< harder than the spot requires
     bool straight = false;  ///< within the tilt limit at such a moment
     bool sealed = false;
     bool attached = false;

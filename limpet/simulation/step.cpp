@@ -24,7 +24,7 @@ void see_truth(const FlightModel& model, FlightState& state, const plant::Plant&
     truth.legs_force_W_N = plant.contact_force_W();
 }
 
-/// What the vehicle is told of what its sensors say.
+/// What the vehicle receives of what its sensors report.
 void sense(const FlightModel& model, FlightState& state, const plant::Plant& plant,
            TickReport& report) {
     const auto sample = [&] {
@@ -44,7 +44,7 @@ void sense(const FlightModel& model, FlightState& state, const plant::Plant& pla
     }
     faults::step(model.faults, state.faults, state.guidance.state, model.airframe.rotors.size(),
                  time_s, report.events);
-    // The sensors go on from what they sent, not from what was heard of it.
+    // The sensors go on from what they sent, not from what was received of it.
     std::swap(state.sensors.readings, state.faults.sensed);
     sample();
     std::swap(state.sensors.readings, state.faults.sensed);
@@ -75,12 +75,12 @@ void guide(const FlightModel& model, FlightState& state, guidance::EventList& ev
     Readings readings = state.sensors.readings;
     Estimate estimate = state.autopilot.estimate;
     faults::stamp_anew(model.faults, state.faults, readings, estimate);
-    guidance::EventList told;
+    guidance::EventList reported;
     guidance::update(model.guidance, model.task, state.guidance, readings, estimate,
-                     time_s + ahead_s, told);
-    for (std::size_t i = 0; i < told.count; ++i) {
-        told.events[i].time_s -= ahead_s;
-        events.add(told.events[i]);
+                     time_s + ahead_s, reported);
+    for (std::size_t i = 0; i < reported.count; ++i) {
+        reported.events[i].time_s -= ahead_s;
+        events.add(reported.events[i]);
     }
 }
 
@@ -92,9 +92,9 @@ RotorCommand control(const FlightModel& model, FlightState& state,
     if (external == nullptr) {
         return autopilot::control(model.autopilot, state.autopilot, setpoint, time_s);
     }
-    RotorCommand told = external->control(state.sensors.readings, setpoint, time_s);
-    told.command.resize(model.airframe.rotors.size());
-    return told;
+    RotorCommand rotors = external->control(state.sensors.readings, setpoint, time_s);
+    rotors.command.resize(model.airframe.rotors.size());
+    return rotors;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ bool needs_fine_steps(const FlightModel& model, const FlightState& state) {
            (cup.phase == CupPhase::free && std::abs(cup.gap_m) < model.simulation.touch_range_m);
 }
 
-/// A lip that is free beside the wall meets it soon; one that is not sealed slides and lifts.
+/// A lip that is free next to the wall meets it soon; one that is not sealed slides and lifts.
 bool lip_may_touch(const CupStatus& cup) {
     constexpr double kNear_m = 0.25;  // of 60 m/s in the longest step
     return cup.phase == CupPhase::touching ||

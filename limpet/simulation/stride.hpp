@@ -18,7 +18,8 @@ struct Stride {
 [[nodiscard]] Stride one_tick(const FlightModel& model, const FlightState& state);
 
 /// To the next tick at which a station looks at the bodies, in one step of the plant; a tick where
-/// something touches, is about to, or goes fast beside the wall or the ground. docs/decisions/0043.
+/// something touches, is about to, or goes fast next to the wall or the ground.
+/// docs/decisions/0043.
 [[nodiscard]] Stride next_stride(const FlightModel& model, const FlightState& state);
 
 /// From each tick of a second the ticks to the next at which a sensor samples, guidance decides, or

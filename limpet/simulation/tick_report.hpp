@@ -32,7 +32,7 @@ struct ContactPeaks {
     double margin_N = kNaN;  ///< the least of pull, shear and peel while attached
 };
 
-/// What happened on the way from one tick to the next, for whoever watches the loop.
+/// What happened on the way from one tick to the next, for who watches the loop.
 struct TickReport {
     guidance::EventList events;
     ContactPeaks contact;

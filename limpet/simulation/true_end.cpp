@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/true_end.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "limpet/simulation/collision.hpp"

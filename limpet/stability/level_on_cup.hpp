@@ -54,7 +54,7 @@ private:
     simulation::FlightState state_;
     int ticks_ = 1;           ///< of a control period
     int ticks_a_stride_ = 1;  ///< the bodies' steps
-    /// Which of the state's numbers, in the order of the walk, the loop carries beside the bodies'
+    /// Which of the state's numbers, in the order of the walk, the loop carries besides the bodies'
     /// own from one period to the next: rotors and their dead time, filters, integrators.
     std::vector<std::size_t> carried_;
 };

@@ -19,7 +19,7 @@ std::optional<Mode> linear_swing(const std::string& scenario, const Overrides& o
                                   ? "the autopilot 'cascade'"
                                   : nullptr;
     if (lacks != nullptr) {
-        throw InputError(fmt::format("{}: the swing on the cup asks for {}", waits.name, lacks));
+        throw InputError(fmt::format("{}: the swing on the cup needs {}", waits.name, lacks));
     }
     for (const std::string& change : overrides) {
         if (waits.airframe.rotor.motor_kv_rpm_V > 0.0 &&
@@ -39,7 +39,7 @@ std::optional<Mode> linear_swing(const std::string& scenario, const Overrides& o
     const auto model = simulation::build_model(waits);
     if (kTicksPerSecond % model->control_rate_Hz != 0) {
         throw InputError(fmt::format(
-            "{}: the swing on the cup asks for sensors.imu_rate_Hz that divides {}, not {}",
+            "{}: the swing on the cup needs sensors.imu_rate_Hz that divides {}, not {}",
             waits.name, kTicksPerSecond, model->control_rate_Hz));
     }
     const auto modes = LevelOnCup(model).modes();

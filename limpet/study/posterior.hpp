@@ -20,7 +20,7 @@ struct Weighted {
     [[nodiscard]] double quantile(const std::vector<double>& values, double share) const;
 };
 
-/// How many bits a measurement is expected to tell about which of several kinds is true: the mutual
+/// How many bits a measurement is expected to give on which of several kinds is true: the mutual
 /// information of the two, from weighted draws.
 /// @param kinds     of each draw, from 0
 /// @param measured  what the measurement would show of it, its own noise included

@@ -60,7 +60,7 @@ double dot(const std::vector<double>& x, const std::vector<double>& y) {
 
 /// Less what another correlation, whose truth is 0, happens to be: as much of it as both go
 /// together; where that halves the error at least, for how much that is is an estimate, too.
-Correlation beside(const Correlation& one, const Correlation& none) {
+Correlation controlled(const Correlation& one, const Correlation& none) {
     const double squares = dot(none.influence, none.influence);
     if (!std::isfinite(one.value) || !(squares > 0.0)) {
         return one;
@@ -76,13 +76,13 @@ Correlation beside(const Correlation& one, const Correlation& none) {
     return pays && std::abs(less.value) < 1.0 ? less : one;
 }
 
-struct Told {
+struct WithInterval {
     double value;
     campaign::Interval interval;
 };
 
 /// In Fisher's z.
-Told told(const Correlation& correlation) {
+WithInterval with_interval(const Correlation& correlation) {
     if (!std::isfinite(correlation.value)) {
         return {kNaN, {kNaN, kNaN}};
     }
@@ -104,8 +104,9 @@ std::vector<SobolIndex> sobol_indices(const PickFreeze& figure) {
     std::vector<SobolIndex> indices;
     for (const std::vector<double>& mixed : figure.mixed) {
         require(mixed.size() == figure.a.size(), "a mixed sample for each input");
-        const Told with_b = told(beside(correlation(figure.b, mixed), of_none));
-        const Told with_a = told(correlation(figure.a, mixed));
+        const WithInterval with_b =
+            with_interval(controlled(correlation(figure.b, mixed), of_none));
+        const WithInterval with_a = with_interval(correlation(figure.a, mixed));
         indices.push_back({.first = with_b.value,
                            .first_95 = with_b.interval,
                            .total = 1.0 - with_a.value,

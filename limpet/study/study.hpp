@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "limpet/campaign/results.hpp"
+#include "limpet/campaign/workers.hpp"
 #include "limpet/rare/rare_event.hpp"
+#include "limpet/rare/subset_simulation.hpp"
 #include "limpet/study/sobol.hpp"
 
 namespace limpet::study {
@@ -40,49 +39,33 @@ struct StudyPlan {
 };
 [[nodiscard]] StudyPlan plan_of(const campaign::Campaign& campaign, std::uint32_t samples);
 
-/// Where a run stands: a standard normal for each drawn key, and its noise.
-struct StudyPoint {
-    std::vector<double> normals;
-    NoiseBlend noise;
-};
-[[nodiscard]] StudyPoint point_of(const StudyPlan& plan, std::uint32_t run);
+[[nodiscard]] rare::RarePoint point_of(const StudyPlan& plan, std::uint32_t run);
 
 /// Checks before anything flies that all that varies is drawn.
 /// @throws InputError one line: the key and what is wrong with it
 void require_drawn(const campaign::Campaign& campaign);
 
-/// What a study was asked; a table `study` beside the campaign's, of one row.
-struct StudyAsked {
+/// What a study looks for; a table `study` next to the campaign's, of one row.
+struct StudyRequest {
     std::string figure;
     std::uint32_t samples = 256;
 };
 /// @return nullopt: the results are not a study's
 /// @throws InputError when the table is damaged
-[[nodiscard]] std::optional<StudyAsked> study_asked(campaign::Results& results);
-/// Writes down what is asked; another figure of the same flights may be asked at any time.
+[[nodiscard]] std::optional<StudyRequest> study_request(campaign::Results& results);
+/// Stores the request; another figure of the same flights may be requested at any time.
 /// @throws InputError when the results are a campaign's or a search's, or of another size
-void begin_study(campaign::Results& results, const StudyAsked& asked);
+void begin_study(campaign::Results& results, const StudyRequest& request);
 /// @throws InputError when the results are a study's
 void require_no_study(campaign::Results& results);
 /// @return noise of a run of a study; nullopt: the results are none
 [[nodiscard]] std::optional<NoiseBlend> study_noise(campaign::Results& results, std::uint32_t run);
 
-/// How far it has come.
-struct StudyProgress {
-    std::uint32_t runs = 0;
-    std::uint32_t finished = 0;
-    std::uint32_t flown = 0;  ///< now
-    double elapsed_s = 0.0;
-};
-/// Empty members do nothing.
-struct StudyWatch {
-    std::function<void(const StudyProgress&)> on_progress = {};
-    const std::atomic<bool>* stop = nullptr;
-};
 /// Flies the runs that are missing, on `jobs` threads, each with several side by side; rows do not
 /// depend on how many.
 /// @throws InputError as run_campaign()
-StudyProgress fly_study(campaign::Results& results, int jobs, const StudyWatch& watch = {});
+campaign::Progress fly_study(campaign::Results& results, int jobs,
+                             const campaign::CampaignWatch& watch = {});
 
 /// An input and what it brings about.
 struct StudiedInput {
@@ -103,7 +86,7 @@ struct StudyFound {
     [[nodiscard]] double mean() const;
     [[nodiscard]] double deviation() const;
 };
-/// @param figure  one of the flights', or empty: that which was asked for
+/// @param figure  one of the flights', or empty: that of the request
 [[nodiscard]] StudyFound find_study(campaign::Results& results, const std::string& figure = {});
 
 /// For people: lines of at most a screen's width.

@@ -27,10 +27,8 @@ std::vector<double> values_of(campaign::Results& results, const StudyFigure& fig
         const campaign::RunRow row = results.row(run);
         if (run >= plan.runs() ||
             row.sample != sample_at(results.campaign().keys, point_of(plan, run).normals)) {
-            throw InputError(
-                fmt::format("{}: is damaged: run {} is not the one that the study "
-                            "flies",
-                            results.database().getFilename(), run));
+            campaign::refuse(results.database(),
+                             "is damaged: run {} is not the one that the study flies", run);
         }
         values[run] = figure.value(row);
     }
@@ -38,11 +36,7 @@ std::vector<double> values_of(campaign::Results& results, const StudyFigure& fig
 }
 
 StudyJson interval_json(double value, const campaign::Interval& interval) {
-    const auto finite = [](double x) {
-        return std::isfinite(x) ? StudyJson(x) : StudyJson(nullptr);
-    };
-    return {
-        {"value", finite(value)}, {"low", finite(interval.low)}, {"high", finite(interval.high)}};
+    return {{"value", value}, {"low", interval.low}, {"high", interval.high}};  // null: not finite
 }
 
 /// Of those with the greatest share first, as a table and a figure show them.
@@ -69,8 +63,8 @@ std::string events_text(const StudyFound& found) {
                     found.events.runs);
     if (found.events.successes < kSeldom) {
         text += fmt::format(
-            "seldom met: limpet campaign FILE --rare '{}'{} tells a small probability with fewer "
-            "flights\n",
+            "seldom met: limpet campaign FILE --rare '{}'{} estimates a small probability with "
+            "fewer flights\n",
             found.figure,
             found.figure.find_first_of("<>") != std::string::npos
                 ? ""
@@ -95,17 +89,16 @@ double StudyFound::deviation() const {
 }
 
 StudyFound find_study(campaign::Results& results, const std::string& wanted) {
-    const std::optional<StudyAsked> asked = study_asked(results);
-    require(asked.has_value(), "the results of a study");
-    const StudyFigure figure = parse_figure(wanted.empty() ? asked->figure : wanted);
+    const StudyRequest request = required(study_request(results), "the results of a study");
+    const StudyFigure figure = parse_figure(wanted.empty() ? request.figure : wanted);
     const campaign::Campaign& campaign = results.campaign();
-    const StudyPlan plan = plan_of(campaign, asked->samples);
+    const StudyPlan plan = plan_of(campaign, request.samples);
     StudyFound found{.name = campaign.name,
                      .scenario = campaign.scenario_name,
                      .version = results.version(),
                      .figure = figure.text(),
                      .seed = campaign.seed,
-                     .samples = asked->samples,
+                     .samples = request.samples,
                      .is_event = figure.is_event,
                      .events = {},
                      .values = {},

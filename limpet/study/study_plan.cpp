@@ -8,15 +8,6 @@
 #include "limpet/study/study.hpp"
 
 namespace limpet::study {
-namespace {
-
-std::uint64_t noise_seed(RandomStream& random) {
-    constexpr double kSeeds = 9007199254740992.0;  // 2^53: all that a uniform number tells apart
-    return static_cast<std::uint64_t>(random.uniform() * kSeeds);
-}
-
-}  // namespace
-
 double StudyFigure::value(const campaign::RunRow& row) const {
     if (row.outcome == campaign::kFault) {
         return kNaN;
@@ -44,13 +35,14 @@ StudyPlan plan_of(const campaign::Campaign& campaign, std::uint32_t samples) {
     return {.seed = campaign.seed, .inputs = drawn_keys(campaign.keys), .samples = samples};
 }
 
-StudyPoint point_of(const StudyPlan& plan, std::uint32_t run) {
+rare::RarePoint point_of(const StudyPlan& plan, std::uint32_t run) {
     const std::uint32_t block = run / plan.samples;
     RandomStream random(plan.seed, run % plan.samples, Stream::scenario);
     std::vector<double> a(plan.inputs), b(plan.inputs);
     std::generate(a.begin(), a.end(), [&] { return random.normal(); });
     std::generate(b.begin(), b.end(), [&] { return random.normal(); });
-    const std::uint64_t noise_a = noise_seed(random), noise_b = noise_seed(random);
+    const std::uint64_t noise_a = campaign::noise_seed(random),
+                        noise_b = campaign::noise_seed(random);
     constexpr std::uint32_t kFirst = 0, kSecond = 1;
     if (block == kSecond) {
         return {std::move(b), {{.seed = noise_b}}};
@@ -62,17 +54,10 @@ StudyPoint point_of(const StudyPlan& plan, std::uint32_t run) {
 }
 
 void require_drawn(const campaign::Campaign& campaign) {
-    for (const campaign::VariedKey& key : campaign.keys) {
-        if (key.spread == campaign::Spread::grid && key.values.size() > 1) {
-            throw InputError(fmt::format(
-                "{}: parameters.{}: a grid has no probabilities: for a study write choice or "
-                "uniform in its place, or a single value",
-                key.place, key.key));
-        }
-    }
+    require_no_grid(campaign.keys, "a study");
     if (drawn_keys(campaign.keys) == 0) {
         throw InputError(campaign.name +
-                         ": nothing is drawn: a study asks what inputs bring about, as in --vary "
+                         ": nothing is drawn: a study varies inputs, as in --vary "
                          "guidance.dock_speed_m_s=0.8..1.2");
     }
 }

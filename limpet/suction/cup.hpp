@@ -8,7 +8,7 @@
 #include "limpet/core/signals/event.hpp"
 #include "limpet/suction/force_law.hpp"
 #include "limpet/suction/pressure_model.hpp"
-#include "limpet/suction/seal.hpp"
+#include "limpet/suction/surface.hpp"
 
 namespace limpet::suction {
 
@@ -30,7 +30,7 @@ namespace limpet::suction {
 //
 // A touch lasts until the lip has lifted: its demand is drawn once, however often the lip seals and
 // opens in between. A cup that lets go while its lip still meets the wall is `touching` until it
-// lifts; what happened was said when it let go.
+// lifts; what happened was reported when it let go.
 
 struct CupParameters {
     LipParameters lip;
@@ -134,7 +134,7 @@ struct LipNow {
 /// Whether the vacuum acts between lip and wall.
 [[nodiscard]] bool is_sealed(CupPhase phase);
 
-/// From free to touching; what the seal asks for is not drawn.
+/// From free to touching; what the seal requires is not drawn.
 void begin_touch(CupState& state);
 
 /// The rows of the table that open the seal or end the contact.

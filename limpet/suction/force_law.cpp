@@ -110,7 +110,7 @@ struct LipLimits {
     [[nodiscard]] double lever_m() const { return 0.5 * radius_m; }
 };
 
-/// What the lip is asked for, before its limits.
+/// What the lip must bear, before its limits.
 struct LipDemand {
     double pull_N, shear_N, twist_N_m, peel_N_m;
 
@@ -125,14 +125,14 @@ struct LipDemand {
     }
 };
 
-/// Shortens two components that together ask for more than a limit.
+/// Shortens two components that together exceed a limit.
 double shorten(Vector6& w, int first, double limit) {
-    const double asked = along(w[first], w[first + 1]);
-    if (asked > limit) {
-        w[first] *= limit / asked;
-        w[first + 1] *= limit / asked;
+    const double wanted = along(w[first], w[first + 1]);
+    if (wanted > limit) {
+        w[first] *= limit / wanted;
+        w[first + 1] *= limit / wanted;
     }
-    return asked;
+    return wanted;
 }
 
 /// Where some give way the others have to do with what is left, and turn to where it leads: swept
@@ -289,11 +289,11 @@ LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anch
     if (!demand.fits(limits)) {
         const CupBearer::Response response =
             bearer != nullptr ? bearer->response(motion.R_WT) : CupBearer::Response{};
-        const LipDemand asked = demand;
+        const LipDemand wanted = demand;
         demand = give_way(LipStep(forces, response), limits, w);
         held.press_N = response.press_with_N(w);
         if (sealed) {
-            demand = asked;  // it lets go of what it cannot hold
+            demand = wanted;  // it lets go of what it cannot hold
         }
     }
     LipLoad load;

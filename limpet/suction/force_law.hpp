@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
 #include <string_view>
 
 #include "limpet/core/cup_bearer.hpp"
@@ -27,7 +26,7 @@ namespace limpet::suction {
 // - G dv, dv = drift + A w, a 6 by 6 system; where a limit is met, its components stay at the
 // limit.
 
-/// Lip of an 80 mm cup. Source: baseline.md where not said otherwise.
+/// Lip of an 80 mm cup. Source: baseline.md where not stated otherwise.
 struct LipParameters {
     double radius_m = 0.04;
     double stiffness_N_m = 2e4;
@@ -54,8 +53,9 @@ struct LipParameters {
 
 /// The lip with a wall that yields as one: springs in series, the wall's without a mass. Of the
 /// damper, which the lip alone has, the share that its rate has of both's; where the lip bottoms
-/// out that is told for its soft part still. Along the wall and against tilting the wall is rigid:
-/// a plate is far stiffer against a moment than a bed of springs that yields as it does to a push.
+/// out that is counted as its soft part still. Along the wall and against tilting the wall is
+/// rigid: a plate is far stiffer against a moment than a bed of springs that yields as it does to a
+/// push.
 [[nodiscard]] LipParameters on_wall(const LipParameters& lip, const WallGeometry& wall);
 
 /// Where the lip is relative to the wall, in the tangent frame T of the spot under its centre.

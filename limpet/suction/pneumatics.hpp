@@ -9,7 +9,7 @@
 
 namespace limpet::suction {
 
-// The air of one or more cups on one pump, beside the exponential of pressure.hpp
+// The air of one or more cups on one pump, the alternative to the exponential of pressure.hpp
 // (docs/decisions/0008). Isothermal, so that mass is counted as throughput Q = p dV/dt [Pa m^3/s]:
 //
 //   atmosphere --leak(clamping)--+

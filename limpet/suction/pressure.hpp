@@ -29,7 +29,7 @@ struct FirstOrderParameters {
 /// half-way goes on from the current pressure and the result does not depend on the step.
 /// @param pressure_Pa  absolute, now [Pa]
 /// @param dt_s         >= 0 [s]
-/// @param hole_mm2     lets air in beside the flow, at the rate of the valve's 2 mm orifice by its
+/// @param hole_mm2     lets air in besides the flow, at the rate of the valve's 2 mm orifice by its
 /// area
 /// @param ambient_Pa  of the air around
 /// @return absolute pressure after dt_s [Pa]

@@ -3,6 +3,7 @@
 
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
+#include "limpet/core/random.hpp"
 
 namespace limpet::suction {
 
@@ -30,7 +31,7 @@ struct Surface {
 
 [[nodiscard]] const ParameterTable<Surface>& surface_table();
 
-/// What a pressure model (pressure_model.hpp) is told of a sealed cup, each step.
+/// What a pressure model (pressure_model.hpp) receives of a sealed cup, each step.
 struct SealedAir {
     const Surface& surface;     ///< of the spot under the cup
     double radius_m = 0.0;      ///< sealed
@@ -44,5 +45,18 @@ struct SealedAir {
     double ambient_Pa = kAtmosphere_Pa;  ///< of the air around
     double leak_growth = 0.0;  ///< what the seal leaks more than when it was fresh, over that
 };
+
+/// What this touch needs in order to seal: drawn when the lip meets the wall, because roughness and
+/// the spot that is hit differ from touch to touch (paper, section II.D).
+struct SealDemand {
+    double threshold_N = 0.0;     ///< press force to pass
+    double tilt_limit_rad = 0.0;  ///< tilt to stay below
+};
+
+[[nodiscard]] SealDemand draw_seal_demand(const Surface& surface, RandomStream& random);
+
+/// @param press_N   force that presses the cup on the wall through its mechanism, > 0 presses [N]
+/// @param tilt_rad  angle between the lip's plane and the wall, >= 0 [rad]
+[[nodiscard]] bool seals(const SealDemand& demand, double press_N, double tilt_rad);
 
 }  // namespace limpet::suction

@@ -18,7 +18,7 @@ using mavlink::Frame;
 
 constexpr std::chrono::nanoseconds kNoWait{0};
 constexpr double kPascal_hPa = 100.0;
-constexpr int kMostFrames = 256;  ///< heard in one tick: a flood must not stop the simulation
+constexpr int kMostFrames = 256;  ///< received in one tick: a flood must not stop the simulation
 
 void send_bytes(wire::Transport& wire, std::span<const std::byte> bytes) {
     (void)wire.send(bytes, kNoWait);  // nobody reads: lost, as on a real cable
@@ -101,7 +101,7 @@ void RemoteGuidance::send_loads(const Readings& readings) {
 
 void RemoteGuidance::send_heartbeat() {
     constexpr int kHeartbeat_Hz = 1;
-    if (due(clock_ - 1, kHeartbeat_Hz)) {  // at once: who listens learns where we are
+    if (due(clock_ - 1, kHeartbeat_Hz)) {  // at once: who listens receives where we are
         mavlink::Heartbeat heartbeat;
         heartbeat.type = mavlink::MavType::onboard_controller;
         heartbeat.autopilot = mavlink::MavAutopilot::invalid;
@@ -158,8 +158,8 @@ void RemoteGuidance::hear_command(const mavlink::Frame& frame,
 
 void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
                                guidance::PerchingMemory& guidance, guidance::EventList& events) {
-    if (const auto told = mavlink::told_outcome(text)) {
-        end(told->outcome, told->reason);
+    if (const auto reported = mavlink::told_outcome(text)) {
+        end(reported->outcome, reported->reason);
     } else if (const auto name = mavlink::event_name(text)) {
         const std::string_view words = mavlink::text_of(text.text);
         const std::size_t reason = std::min(words.size(), to_string(*name).size() + 2);
@@ -168,7 +168,7 @@ void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
             guidance.attempt = ++approaches_;
         }
     } else {
-        last_words_ = keep(mavlink::text_of(text.text));
+        last_words_ = mavlink::text_of(text.text);
     }
 }
 

@@ -45,7 +45,7 @@ struct OutsideCount {
 
 /// Guidance elsewhere: the simulator plays the surroundings of a companion computer, which flies
 /// the autopilot by itself. Each new reading goes out once; pump and valve come back, and keep
-/// their state while nobody speaks; what the companion tells of its mission (mission_report.hpp)
+/// their state while nobody speaks; what the companion reports of its mission (mission_report.hpp)
 /// becomes guidance's state and events.
 class RemoteGuidance final : public simulation::ExternalGuidance {
 public:
@@ -90,7 +90,7 @@ private:
     std::optional<guidance::Ending> ending_;
     std::deque<std::string> texts_;  ///< addresses stay
     /// Of a companion that ends without an outcome: "handed back: reason".
-    std::string_view last_words_ = "the companion ended its mission";
+    std::string last_words_ = "the companion ended its mission";
     OutsideCount count_;
 };
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/ulog/ulog_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,6 +15,8 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/ulog/layout.hpp"
+#include "limpet/ulog/ulog.hpp"
 
 namespace limpet::ulog {
 namespace {
@@ -25,163 +24,10 @@ namespace {
 using namespace record;  // of whose columns a log is made
 
 constexpr std::size_t kHeaderBytes = 16;
-constexpr std::size_t kMostElements = 10'000;  ///< of a message, all arrays and parts spelled out
 constexpr std::size_t kStampBytes = 8;
-
-/// A number in a message: how it is read and where it goes.
-struct Element {
-    std::string name;
-    std::size_t offset = 0;
-    std::size_t bytes = 0;
-    double (*read)(const char* bytes) = nullptr;
-};
-
-/// The numbers behind the time stamp, which every message begins with.
-using Layout = std::vector<Element>;
-
-template <class T>
-double read_as(const char* bytes) {
-    T value;
-    std::memcpy(&value, bytes, sizeof value);
-    return static_cast<double>(value);
-}
-
-struct Plain {
-    std::string_view type;
-    std::size_t bytes;
-    double (*read)(const char*);
-};
-constexpr Plain kPlain[] = {
-    {"int8_t", 1, read_as<std::int8_t>},   {"uint8_t", 1, read_as<std::uint8_t>},
-    {"int16_t", 2, read_as<std::int16_t>}, {"uint16_t", 2, read_as<std::uint16_t>},
-    {"int32_t", 4, read_as<std::int32_t>}, {"uint32_t", 4, read_as<std::uint32_t>},
-    {"int64_t", 8, read_as<std::int64_t>}, {"uint64_t", 8, read_as<std::uint64_t>},
-    {"float", 4, read_as<float>},          {"double", 8, read_as<double>},
-    {"bool", 1, read_as<std::uint8_t>},    {"char", 1, nullptr},
-};
-
-using Formats = std::map<std::string, std::string, std::less<>>;
-
-/// Lays a message out by its definition and those of its parts. What it goes through and what it
-/// makes is taken from the allowance; a definition that makes no sense throws InputError.
-class LayoutMaker {
-public:
-    LayoutMaker(const Formats& formats, Allowance& allowance)
-        : formats_(formats), allowance_(allowance) {}
-
-    [[nodiscard]] Layout of(std::string_view type) {
-        add(type, "", 0);
-        if (!stamped_) {
-            throw InputError("it does not begin with uint64_t timestamp");
-        }
-        return std::move(layout_);
-    }
-
-private:
-    struct FieldType {
-        std::string_view name;
-        std::size_t count = 1;
-        bool array = false;
-    };
-
-    void add(std::string_view type, const std::string& prefix, int depth) {
-        const auto found = formats_.find(type);
-        if (found == formats_.end()) {
-            throw InputError(fmt::format("there is no format {}", in_quotes(type)));
-        }
-        if (depth > kMostLevels) {
-            throw InputError(fmt::format("more than {} messages within each other", kMostLevels));
-        }
-        allowance_.take_definition(found->second.size());
-        std::string_view fields = found->second;
-        while (!fields.empty()) {
-            const std::size_t end = std::min(fields.find(';'), fields.size());
-            if (end > 0) {
-                add_field(fields.substr(0, end), prefix, depth);
-            }
-            fields.remove_prefix(std::min(end + 1, fields.size()));
-        }
-    }
-
-    /// "float[3]"
-    static FieldType field_type(std::string_view text) {
-        FieldType type{.name = text.substr(0, text.find('['))};
-        type.array = type.name.size() < text.size();
-        if (type.array) {
-            const char* const digits = text.data() + type.name.size() + 1;
-            const char* const end = text.data() + text.size();
-            const auto [rest, error] = std::from_chars(digits, end, type.count);
-            if (error != std::errc{} || rest + 1 != end || *rest != ']' ||
-                type.count > kMostElements) {
-                throw InputError(fmt::format("{} is no type, an array has 0..{} elements",
-                                             in_quotes(text), kMostElements));
-            }
-        }
-        return type;
-    }
-
-    /// "float[3] xyz"
-    void add_field(std::string_view field, const std::string& prefix, int depth) {
-        const std::size_t blank = field.find(' ');
-        if (blank == std::string_view::npos) {
-            throw InputError(fmt::format("field {} has no name", in_quotes(field)));
-        }
-        const std::string_view own_name = field.substr(blank + 1);
-        if (own_name.empty() || own_name.size() > kLongestFieldName) {
-            throw InputError(fmt::format("a field's name of {} characters, allowed 1..{}",
-                                         own_name.size(), kLongestFieldName));
-        }
-        const FieldType type = field_type(field.substr(0, blank));
-        const std::string name = prefix + std::string(own_name);
-        const auto* const plain =
-            std::find_if(std::begin(kPlain), std::end(kPlain),
-                         [&](const Plain& one) { return one.type == type.name; });
-        if (plain == std::end(kPlain)) {
-            add_parts(type, name, depth);
-        } else if (plain->read == nullptr || own_name.starts_with("_padding")) {
-            look_at_one();
-            bytes_ += type.count * plain->bytes;
-        } else {
-            add_numbers(*plain, type, name);
-        }
-    }
-
-    void add_parts(const FieldType& type, const std::string& name, int depth) {
-        for (std::size_t i = 0; i < type.count; ++i) {
-            look_at_one();
-            add(type.name, (type.array ? fmt::format("{}[{}]", name, i) : name) + ".", depth + 1);
-        }
-    }
-
-    void add_numbers(const Plain& plain, const FieldType& type, const std::string& name) {
-        for (std::size_t i = 0; i < type.count; ++i) {
-            look_at_one();
-            if (bytes_ == 0) {
-                stamped_ = name == "timestamp" && plain.type == "uint64_t";
-            } else {
-                Element element{type.array ? fmt::format("{}[{}]", name, i) : name, bytes_,
-                                plain.bytes, plain.read};
-                allowance_.take_bytes(sizeof element + element.name.size());
-                layout_.push_back(std::move(element));
-            }
-            bytes_ += plain.bytes;
-        }
-    }
-
-    void look_at_one() {
-        if (++looked_at_ > kMostElements) {
-            throw InputError(fmt::format("more than {} fields", kMostElements));
-        }
-        allowance_.take_fields(1);
-    }
-
-    const Formats& formats_;
-    Allowance& allowance_;
-    Layout layout_;
-    std::size_t bytes_ = 0;
-    std::size_t looked_at_ = 0;  ///< texts, padding and empty parts among them
-    bool stamped_ = false;
-};
+constexpr std::size_t kHead = 3;  ///< of a message: its size, its type
+/// A message that a logger writes now and then, to be found behind a damage.
+constexpr std::string_view kSync("\x08\0S\x2F\x73\x13\x20\x25\x0C\xBB\x12", 11);
 
 /// A topic that is logged under a number.
 struct Logged {
@@ -206,14 +52,24 @@ public:
         }
         std::size_t at = kHeaderBytes;
         while (at < bytes_.size()) {
-            constexpr std::size_t kHead = 3;
-            if (at + kHead > bytes_.size() || at + kHead + size_at(at) > bytes_.size()) {
-                recording_.damage = "it ends in the middle of a message";
+            const std::size_t end = part_end(at);
+            if (at + kHead > end || at + kHead + size_at(at) > end) {
+                if (end < bytes_.size()) {
+                    at = end;  // what was appended stands behind what was cut short
+                    continue;
+                }
+                damaged("it ends in the middle of a message");
                 break;
+            }
+            const char type = bytes_[at + 2];
+            if (type < 'A' || type > 'Z') {
+                damaged(fmt::format("no message begins at byte {}", at));
+                at = bytes_.find(kSync, at);
+                continue;
             }
             const std::string_view content(bytes_.data() + at + kHead, size_at(at));
             try {
-                message(bytes_[at + 2], content);
+                message(type, content);
             } catch (const TooMuch& problem) {
                 refuse(problem.what());
             }
@@ -236,8 +92,43 @@ private:
         return static_cast<std::size_t>(read_as<std::uint16_t>(bytes_.data() + at));
     }
 
+    /// Where the messages end that the one at this byte belongs to: at the file's end, or where
+    /// more was appended to a log that was cut short.
+    [[nodiscard]] std::size_t part_end(std::size_t at) const {
+        std::size_t end = bytes_.size();
+        for (const std::uint64_t offset : appended_) {
+            if (offset > at && offset < end) {
+                end = static_cast<std::size_t>(offset);
+            }
+        }
+        return end;
+    }
+    void damaged(const std::string& how) {
+        if (recording_.damage.empty()) {
+            recording_.damage = how;
+        }
+    }
+
+    /// Eight bits of what may be passed over, eight of what may not, three places.
+    void flags(std::string_view content) {
+        constexpr std::size_t kBits = 8;
+        constexpr char kAppended = 1;
+        if (content.size() < 2 * kBits + appended_.size() * sizeof(std::uint64_t)) {
+            return;
+        }
+        const std::string_view needed = content.substr(kBits, kBits);
+        if ((needed[0] & ~kAppended) != 0 || needed.find_first_not_of('\0', 1) != needed.npos) {
+            refuse("is a log of a newer kind than 1, which this reader does not know");
+        }
+        if ((needed[0] & kAppended) != 0) {
+            std::memcpy(appended_.data(), content.data() + 2 * kBits, sizeof appended_);
+        }
+    }
+
     void message(char type, std::string_view content) {
-        if (type == 'F') {
+        if (type == 'B') {
+            flags(content);
+        } else if (type == 'F') {
             format(content);
         } else if (type == 'A' && content.size() > 3) {
             subscribe(static_cast<std::uint8_t>(content[0]),
@@ -292,7 +183,8 @@ private:
             return known->second;
         }
         try {
-            auto made = std::make_shared<const Layout>(LayoutMaker(formats_, allowance_).of(type));
+            auto made =
+                std::make_shared<const Layout>(layout_of_format(formats_, type, allowance_));
             layouts_.emplace(type, made);
             return made;
         } catch (const TooMuch&) {
@@ -329,6 +221,9 @@ private:
 
     void data(int id, std::string_view content) {
         const auto found = logged_.find(id);
+        if (found == logged_.end()) {
+            damaged(fmt::format("messages under number {}, which stands for no topic", id));
+        }
         if (found == logged_.end() || content.size() < kStampBytes) {
             return;
         }
@@ -355,6 +250,7 @@ private:
     const std::string& bytes_;
     Allowance allowance_;
     Recording recording_;
+    std::array<std::uint64_t, 3> appended_ = {};  ///< places in the file, 0: none
     Formats formats_;
     std::map<std::string, std::shared_ptr<const Layout>, std::less<>> layouts_;
     std::map<std::string, std::size_t, std::less<>> tables_;  ///< by topic

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/ulog/ulog_writer.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +14,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/core/write_file.hpp"
 #include "limpet/record/ros_frames.hpp"
+#include "limpet/ulog/ulog.hpp"
 
 namespace limpet::ulog {
 namespace {
@@ -27,9 +24,9 @@ using namespace record;  // of whose columns a log is made
 /// Columns of a table by name; NaN where there is none, or no table.
 class Rows {
 public:
-    /// @param beside  a topic with the same vehicle's twist; null: there is none
-    explicit Rows(const Table* table, const Table* beside = nullptr)
-        : table_(table), beside_(beside) {}
+    /// @param other  a topic with the same vehicle's twist; null: there is none
+    explicit Rows(const Table* table, const Table* other = nullptr)
+        : table_(table), other_(other) {}
     [[nodiscard]] std::size_t count() const {
         return table_ == nullptr ? 0 : table_->time_s.size();
     }
@@ -54,18 +51,18 @@ public:
     /// By the twist of the same instant, of which both are recorded; NaN where there is none.
     [[nodiscard]] Vector3 v_W_m_s(std::size_t row) const {
         const std::vector<double> none;
-        const std::vector<double>& times = beside_ == nullptr ? none : beside_->time_s;
+        const std::vector<double>& times = other_ == nullptr ? none : other_->time_s;
         const auto found = std::lower_bound(times.begin(), times.end(), time_s(row));
         if (found == times.end() || *found != time_s(row)) {
             return Vector3::Constant(kNaN);
         }
         const auto at = static_cast<std::size_t>(found - times.begin());
-        return q_WB(row) * ros::flu_from_frd(Rows(beside_).xyz("twist.linear", at));
+        return q_WB(row) * ros::flu_from_frd(Rows(other_).xyz("twist.linear", at));
     }
 
 private:
     const Table* table_;
-    const Table* beside_;
+    const Table* other_;
 };
 
 std::string bytes_of(const auto& value) {
@@ -103,9 +100,9 @@ struct Px4Topic {
     std::function<void(Fields& fields, const Rows& rows, std::size_t row)> fill;
     std::uint8_t instance = 0;
     /// What is recorded at an instant has acted since the one before (simulation/flight_log.cpp); a
-    /// PX4 log has it when it was said.
+    /// PX4 log has it when it was sent.
     bool acted_since = false;
-    std::string_view beside = {};  ///< topic of the recording with what else a row needs
+    std::string_view other = {};  ///< topic of the recording with what else a row needs
 };
 
 void fill_attitude(Fields& fields, const Rows& rows, std::size_t row) {
@@ -278,7 +275,7 @@ void write_ulog(const Recording& recording, const std::filesystem::path& file) {
     std::uint16_t id = 0;
     for (const Px4Topic& topic : px4_topics()) {
         const Rows rows(find_by(recording.tables, &Table::topic, topic.from),
-                        find_by(recording.tables, &Table::topic, topic.beside));
+                        find_by(recording.tables, &Table::topic, topic.other));
         if (rows.count() > 0) {
             log += message('A', std::string(1, static_cast<char>(topic.instance)) + bytes_of(id) +
                                     std::string(topic.name));

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
@@ -27,7 +26,7 @@ struct RotorParameters {
     double height_m = 0.04;              ///< of the propeller planes above the centre of mass
     double axial_loss_speed_m_s = 25.0;  ///< thrust is gone at this speed along the axis
     bool speed_follows_voltage = false;  ///< at any command, not the highest speed alone
-    /// A motor by its numbers (motor.hpp) in the place of the time constants; KV 0: none.
+    /// A motor by its numbers (rotor.hpp) in the place of the time constants; KV 0: none.
     double motor_kv_rpm_V = 0.0;
     double motor_resistance_ohm = 0.15;  ///< winding, speed controller and leads, of one motor
     double spin_inertia_kg_m2 = 1e-4;    ///< propeller and bell
@@ -237,5 +236,20 @@ using JointLaw = JointLawOf<double>;
 // (0.95 * 0.004).
 inline constexpr double kTipStiffness_N_m = 1e5;
 inline constexpr double kTipDamping_N_s_m = 800.0;
+
+// How large the numbers of a vehicle are by its mass and size: for what has not been measured.
+
+/// Principal moments of inertia that a vehicle of this mass and reach has. Of multirotors from 27 g
+/// to 11 kg I/(m r^2), r from the centre of mass to the furthest hub, is 0.18 to 0.35 in roll and
+/// pitch and 0.3 to 0.6 in yaw; what stands out ahead, as a cup on its slider, adds to pitch and
+/// yaw.
+/// @return [kg m^2], roll, pitch, yaw
+[[nodiscard]] Vector3 usual_inertia_kg_m2(const AirframeNumbers& airframe);
+
+/// @param inertia_kg_m2  about one axis
+/// @param axis           0 roll, 1 pitch, 2 yaw
+/// @param factor         how far from usual_inertia_kg_m2() is allowed, > 1
+[[nodiscard]] bool is_plausible_inertia(const AirframeNumbers& airframe, double inertia_kg_m2,
+                                        int axis, double factor);
 
 }  // namespace limpet::vehicle

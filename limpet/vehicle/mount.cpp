@@ -77,7 +77,7 @@ Pendulum hang(const PendulumParameters& parameters, const Airframe& airframe,
         x_m = std::max(x_m, std::abs(rotor.p_B_m.x()));
         y_m = std::max(y_m, std::abs(rotor.p_B_m.y()));
     }
-    // Level with the centre of mass: a push along the wall's normal asks for no moment.
+    // Level with the centre of mass: a push along the wall's normal needs no moment.
     pendulum.hook_B_m = {{{x_m, y_m, 0.0}, {-x_m, -y_m, 0.0}, {x_m, -y_m, 0.0}, {-x_m, y_m, 0.0}}};
     for (std::size_t i = 0; i < kRopes; ++i) {
         pendulum.anchor_W_m[i] = lowest_p_WB_m + q_WB * pendulum.hook_B_m[i] -

@@ -6,12 +6,22 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 #include "limpet/core/lanes.hpp"
 #include "limpet/core/machines.hpp"
 #include "limpet/vehicle/battery.hpp"
 
 namespace limpet::vehicle {
 namespace {
+
+double back_emf_V_s(const RotorParameters& rotor) {
+    return 60.0 / (2.0 * kPi * rotor.motor_kv_rpm_V);
+}
+
+/// The positive root of w + w^2 / per_load = emf, where emf is a voltage over k_e.
+double held_by(double emf_rad_s, double per_load_s) {
+    return 2.0 * emf_rad_s / (1.0 + std::sqrt(1.0 + 4.0 * emf_rad_s * per_load_s));
+}
 
 double steady_speed_rad_s(const RotorParameters& rotor, double command) {
     return rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * std::clamp(command, 0.0, 1.0);
@@ -85,8 +95,8 @@ RotorsState spinning(const RotorParameters& rotor, std::size_t count, double com
                      double drive_share) {
     const double asked_rad_s = driven_rad_s(rotor, steady_speed_rad_s(rotor, command), drive_share);
     RotorsState state;
-    for (auto& asked : state.asked_rad_s) {
-        std::fill_n(asked.begin(), count, asked_rad_s);
+    for (auto& ring : state.asked_rad_s) {
+        std::fill_n(ring.begin(), count, asked_rad_s);
     }
     state.speed_rad_s.resize(count, std::min(asked_rad_s, limit_rad_s(rotor, drive_share)));
     return state;
@@ -192,7 +202,7 @@ LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag,
 
 namespace {
 
-/// In air of the density for which the constants are told.
+/// In air of the density for which the constants are given.
 LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench standard_wrench_B(const AirframeNumbers& airframe,
                                                               const RotorList<double>& speeds_rad_s,
                                                               const Kinematics& base,
@@ -264,6 +274,42 @@ double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state
         cubes += std::abs(speed_rad_s) * speed_rad_s * speed_rad_s;
     });
     return rotor.moment_constant_m * rotor.thrust_per_speed_2_kg_m() * cubes;
+}
+
+MotorLaw motor_law(const RotorParameters& rotor) {
+    const double emf_V_s = back_emf_V_s(rotor);
+    return {.emf_1_s = emf_V_s * emf_V_s / (rotor.motor_resistance_ohm * rotor.spin_inertia_kg_m2),
+            .load_1_rad = rotor.moment_constant_m * rotor.thrust_per_speed_2_kg_m() /
+                          rotor.spin_inertia_kg_m2,
+            .brakes = rotor.motor_brakes};
+}
+
+double lag_s(const MotorLaw& motor, double speed_rad_s) {
+    return 1.0 / (motor.emf_1_s + 2.0 * motor.load_1_rad * speed_rad_s);
+}
+
+double speed_after_rad_s(const MotorLaw& motor, double speed_rad_s, double target_rad_s,
+                         double dt_s) {
+    const double error_rad_s = speed_rad_s - target_rad_s;
+    const double rate_1_s = motor.emf_1_s + 2.0 * motor.load_1_rad * target_rad_s;
+    const double kept = std::exp(-rate_1_s * dt_s);
+    const double driven_rad_s =
+        target_rad_s +
+        error_rad_s * kept / (1.0 + motor.load_1_rad * error_rad_s / rate_1_s * (1.0 - kept));
+    if (motor.brakes || error_rad_s <= 0.0) {
+        return driven_rad_s;
+    }
+    return std::max(driven_rad_s, speed_rad_s / (1.0 + motor.load_1_rad * speed_rad_s * dt_s));
+}
+
+double speed_by_voltage_rad_s(const MotorLaw& motor, double nominal_rad_s, double drive_share) {
+    const double per_load_s = motor.load_1_rad / motor.emf_1_s;
+    return held_by(drive_share * nominal_rad_s * (1.0 + per_load_s * nominal_rad_s), per_load_s);
+}
+
+double top_speed_rad_s(const RotorParameters& rotor, double voltage_V) {
+    const MotorLaw motor = motor_law(rotor);
+    return held_by(voltage_V / back_emf_V_s(rotor), motor.load_1_rad / motor.emf_1_s);
 }
 
 }  // namespace limpet::vehicle

@@ -9,12 +9,11 @@
 #include "limpet/core/signals/rotor_command.hpp"
 #include "limpet/core/signals/wrench.hpp"
 #include "limpet/vehicle/airframe.hpp"
-#include "limpet/vehicle/motor.hpp"
 
 /// The motor model of PX4's Gazebo Classic, rotors whose axes are z of B.
 ///
 ///   command u -> speed offset + scale u -> dead time -> limit -> lag -> speed w; the lag is of
-///   first order, or a motor's (motor.hpp)
+///   first order, or a motor's (MotorLaw below)
 ///   thrust    T = c k_mot w^2 s,  s = clamp(1 - |v_par| / 25 m/s, 0, 1)    along -z
 ///   yaw       dir k_mot w^2 k_mom                                          about +z
 ///   drag      -w lambda_1 v_perp                                           at the hub
@@ -25,6 +24,47 @@
 /// leaves of its thrust. The reaction on yaw of a rotor that speeds up is left out.
 /// Source: PX4-SITL_gazebo-classic, gazebo_motor_model.cpp; facts.md section 1.
 namespace limpet::vehicle {
+
+// A brushless motor behind a speed controller, in the place of two time constants.
+//
+//   J dw/dt = k_t (V - k_e w) / R - k_Q w^2,   k_t = k_e = 60 / (2 pi KV)
+//
+// The controller gives the share V of the battery's voltage that holds the requested speed,
+// V = k_e w_ref + R k_Q w_ref^2 / k_t, so that the speed goes there by
+//
+//   d(w - w_ref)/dt = -(a + b (w + w_ref)) (w - w_ref),   a = k_t k_e / (R J),  b = k_Q / J
+//
+// faster the faster it turns: no time constant is one. A controller that does not brake lets a
+// motor that turns faster than its voltage run down in the air, dw/dt = -b w^2.
+// Left out: inductance and commutation, current limits, and what speeding up does to the base.
+// Source: Franklin, Powell, Emami-Naeini, "Feedback control of dynamic systems", 2.3.
+
+struct MotorLaw {
+    double emf_1_s = 0.0;     ///< a
+    double load_1_rad = 0.0;  ///< b
+    bool brakes = true;
+};
+/// @param rotor  with a motor: motor_kv_rpm_V > 0
+[[nodiscard]] MotorLaw motor_law(const RotorParameters& rotor);
+
+/// Time constant of small changes about a speed [s].
+[[nodiscard]] double lag_s(const MotorLaw& motor, double speed_rad_s);
+
+/// The exact solution after a step, but for the step in which a motor that does not brake comes
+/// down to its voltage.
+/// @param target_rad_s  w_ref, >= 0
+[[nodiscard]] double speed_after_rad_s(const MotorLaw& motor, double speed_rad_s,
+                                       double target_rad_s, double dt_s);
+
+/// What a voltage does to a speed.
+/// @param nominal_rad_s  held by some share of the nominal voltage
+/// @param drive_share    of the nominal voltage, that there is
+/// @return held by the same share of that; in proportion where the windings have no resistance
+[[nodiscard]] double speed_by_voltage_rad_s(const MotorLaw& motor, double nominal_rad_s,
+                                            double drive_share);
+
+/// Where propeller and battery hold each other.
+[[nodiscard]] double top_speed_rad_s(const RotorParameters& rotor, double voltage_V);
 
 /// Eq. (3): thrust per squared speed.
 /// @param thrust_coefficient  C_T0 of T = C_T0 rho n^2 D^4, n in revolutions per second
@@ -46,7 +86,7 @@ inline constexpr std::size_t kCommandDelaySteps = 128;
 
 struct RotorsState {
     RotorList<double> speed_rad_s;
-    /// Ring of the speeds asked for; the one written next is the oldest. As many count as there are
+    /// Ring of the speeds requested; the one written next is the oldest. As many count as there are
     /// speeds.
     std::array<std::array<double, kMaxRotors>, kCommandDelaySteps> asked_rad_s{};
     std::size_t next = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
 #include "limpet/core/signals/kinematics.hpp"
@@ -11,9 +9,10 @@
 /// A wall that moves with the sea: a ship's hull, a floating platform, a pontoon.
 ///
 /// W goes along with the wall, and with it the ground and the cameras of motion capture. What the
-/// hull's sway does is told in W as it is by any body that accelerates: every part of the vehicle
-/// is pulled by -m a, the air streams past with -v, the IMU feels it, GPS and barometer measure on
-/// top of it. Contacts, cup and LiDARs see a wall at rest. Exact, for a hull that does not turn.
+/// hull's sway does is described in W as it is by any body that accelerates: every part of the
+/// vehicle is pulled by -m a, the air streams past with -v, the IMU feels it, GPS and barometer
+/// measure on top of it. Contacts, cup and LiDARs see a wall at rest. Exact, for a hull that does
+/// not turn.
 ///
 ///   p(t) = A (1 - cos(2 pi t / T)),  at rest at t = 0
 ///

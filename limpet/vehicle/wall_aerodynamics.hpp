@@ -8,7 +8,7 @@
 #include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
-/// What a wall does to the air of a multirotor beside it.
+/// What a wall does to the air of a multirotor next to it.
 ///
 ///   steady     F = C_F rho n^2 D^4, M = C_M rho n^2 D^5, coefficients over d/R measured with a
 ///              12 in quadrotor, d from the closest motor axis to the wall

@@ -38,7 +38,7 @@ struct GustScales {
     GustScale across;
     GustScale down;
 };
-/// @return what the parameters ask for; sigmas of 0 without gusts
+/// @return what the parameters say; sigmas of 0 without gusts
 [[nodiscard]] GustScales gust_scales(const WindParameters& wind);
 
 /// One step of one axis: x <- keep x + carry x_before + noise; see wind.cpp.

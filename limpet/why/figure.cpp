@@ -7,7 +7,7 @@
 
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
-#include "limpet/why/report.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {
@@ -26,23 +26,29 @@ draw::ChartSeries from_seal(const HoldTrace& trace, Curve curve, const Hold& hol
     return series;
 }
 
-/// How long is drawn: the hold and half as much again, that the remedy's goes on is to be seen.
-double drawn_s(const Hold& hold) {
-    constexpr double kLeast_s = 0.5;
-    const double end_s = std::isnan(hold.ended_s) ? hold.sealed_s + 60.0 : hold.ended_s;
-    return std::max(kLeast_s, 1.5 * (end_s - hold.sealed_s));
+/// How long is drawn: the hold and half as much again, that the remedy's goes on is to be seen; no
+/// longer than there is something to draw.
+double drawn_s(const Hold& hold, const HoldTrace& trace, const Hold* mended,
+               const HoldTrace& mended_trace) {
+    constexpr double kLeast_s = 0.5, kMost_s = 90.0;
+    const double hold_s = std::isnan(hold.ended_s) ? kMost_s : 1.5 * (hold.ended_s - hold.sealed_s);
+    const auto traced_s = [](const Hold* of, const HoldTrace& its) {
+        return of == nullptr || its.time_s.empty() ? 0.0 : its.time_s.back() - of->sealed_s;
+    };
+    const double there_s = std::max(traced_s(&hold, trace), traced_s(mended, mended_trace));
+    return std::max(kLeast_s, std::min(hold_s, there_s));
 }
 
 }  // namespace
 
 std::vector<std::filesystem::path> draw_why(const Found& found,
                                             const std::filesystem::path& folder) {
-    const Hold* hold = telling_hold(found.base);
+    const Hold* hold = decisive_hold(found.base);
     if (hold == nullptr) {
         return {};
     }
-    const Hold* mended = found.remedy.changes.empty() ? nullptr : telling_hold(found.remedy);
-    const double for_s = drawn_s(*hold);
+    const Hold* mended = found.remedy.changes.empty() ? nullptr : decisive_hold(found.remedy);
+    const double for_s = drawn_s(*hold, found.trace, mended, found.remedy_trace);
     const auto both = [&](draw::ChartPanel& panel, Curve curve, const char* name,
                           const char* colour) {
         panel.x_range = draw::Range{0.0, for_s};
@@ -64,18 +70,20 @@ std::vector<std::filesystem::path> draw_why(const Found& found,
     both(margins, &HoldTrace::peel_margin_N, "peel", draw::colours::kOrange);
     draw::ChartPanel pitch{.y_label = "pitch  [deg]"};
     both(pitch, &HoldTrace::pitch_deg, "pitch", draw::colours::kDarkBlue);
-    draw::ChartPanel pressure{.x_label = "time since it sealed  [s]", .y_label = "cup  [hPa]"};
+    draw::ChartPanel pressure{.x_label = "time since it sealed  [s]",
+                              .y_label = "cup pressure  [hPa]"};
     both(pressure, &HoldTrace::pressure_hPa, "pressure", draw::colours::kDarkBlue);
     std::string changes;
     for (const Change& change : found.remedy.changes) {
         changes += (changes.empty() ? "dashes: " : ", ") + change.override_text();
     }
-    return draw::draw_chart(
-               {.title = fmt::format("{}: {}", found.scenario, found.base.result.reason),
-                .subtitle = changes,
-                .panels = {margins, pitch, pressure},
-                .column_px = 900.0},
-               "why", folder)
+    return draw::draw_chart({.title = fmt::format("{}: {}: {}", found.scenario,
+                                                  to_string(found.base.result.outcome),
+                                                  found.base.result.reason),
+                             .subtitle = changes,
+                             .panels = {margins, pitch, pressure},
+                             .column_px = 900.0},
+                            "why", folder)
         .files;
 }
 

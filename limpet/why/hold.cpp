@@ -31,7 +31,7 @@ std::optional<double> value_of(const Event& event, std::string_view name) {
     return std::nullopt;
 }
 
-/// What the lip was asked to bear when it let go, by the margins that the cup tells: within a tick
+/// The loads on the lip when it let go, by the margins of the cup's event: within a tick
 /// a blow rises further than the tick before shows.
 std::optional<LipLoads> loads_when_let_go(const Event& event, const simulation::FlightModel& model,
                                           const suction::Surface& surface) {

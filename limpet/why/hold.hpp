@@ -37,7 +37,7 @@ struct Hold {
     double pitch_deg = -90.0;   ///< the highest while sealed
     double margin_N = std::numeric_limits<double>::infinity();  ///< the least while attached
     std::string phase;                                          ///< of guidance when it let go
-    LipLoads loads;  ///< what it was asked to bear when it let go; else the last tick's
+    LipLoads loads;  ///< when it let go; else the last tick's
     PeelSources peel;
 
     [[nodiscard]] double held_s(double end_s) const {

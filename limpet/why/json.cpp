@@ -1,29 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "limpet/why/report.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {
 
 using WhyJson = nlohmann::ordered_json;
 
-WhyJson number(double value) {
-    return std::isfinite(value) ? WhyJson(value) : WhyJson(nullptr);
-}
-
+// Numbers that are none become null by themselves.
 WhyJson json_of(const Hold& hold) {
     const LipLoads& loads = hold.loads;
     return {{"sealed_s", hold.sealed_s},
-            {"attached_s", number(hold.attached_s)},
-            {"ended_s", number(hold.ended_s)},
+            {"attached_s", hold.attached_s},
+            {"ended_s", hold.ended_s},
             {"let_go", hold.let_go},
             {"on_purpose", hold.on_purpose},
             {"phase", hold.phase},
-            {"pressure_min_Pa", number(hold.pressure_Pa)},
+            {"pressure_min_Pa", hold.pressure_Pa},
             {"pitch_max_deg", hold.pitch_deg},
-            {"margin_min_N", number(hold.margin_N)},
+            {"margin_min_N", hold.margin_N},
             {"pull_N", loads.pull_N},
             {"pull_most_N", loads.pull_most_N},
             {"shear_N", loads.shear_N},
@@ -61,7 +57,7 @@ WhyJson json_of(const Trial& trial) {
             {"success", is_success(result.outcome, result.true_end)},
             {"stage", to_string(trial.stage)},
             {"share", trial.share},
-            {"margin_min_N", number(result.metrics.cup_margin_min_N)},
+            {"margin_min_N", result.metrics.cup_margin_min_N},
             {"holds", holds}};
 }
 
@@ -95,6 +91,7 @@ std::string why_json(const Found& found) {
         {"others", others},
         {"keys", json_of(found.keys)},
         {"parts", json_of(found.parts)},
+        {"faults", found.faults},
         {"flights", found.flights},
         {"wall_s", found.wall_s}}
         .dump(2);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/why/keys.hpp"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/sections.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {
@@ -16,38 +15,29 @@ namespace {
 constexpr double kSettingFactor = 3.0;
 constexpr double kPartFactor = 1.5;
 
-bool begins(std::string_view text, std::string_view with) {
-    return text.substr(0, with.size()) == with;
-}
-bool ends(std::string_view text, std::string_view with) {
-    return text.size() >= with.size() && text.substr(text.size() - with.size()) == with;
-}
-template <std::size_t n>
-bool is_one_of(std::string_view name, const std::array<std::string_view, n>& names) {
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 bool is_setting(std::string_view section, std::string_view name) {
-    using Names = std::string_view;
     if (section == "vehicle.slider") {
-        return is_one_of(name, std::array<Names, 3>{"stiffness_N_m", "damping_N_s_m", "preload_N"});
+        return is_one_of(name, {"stiffness_N_m", "damping_N_s_m", "preload_N"});
     }
     if (section == "vehicle.cup") {
-        return begins(name, "centring_");
+        return name.starts_with("centring_");
     }
     if (section == "suction") {
         return name == "valve_fitted";
     }
     if (section == "guidance") {
-        constexpr std::array<Names, 4> kLeftOut = {"attempts", "battery_reserve", "rest_s",
-                                                   "zero_thrust"};
-        return !ends(name, "_limit_s") && !is_one_of(name, kLeftOut);
+        return !name.ends_with("_limit_s") &&
+               !is_one_of(name, {"attempts", "battery_reserve", "rest_s", "zero_thrust"});
     }
-    return section == "autopilot" && (begins(name, "MC_") || begins(name, "MPC_"));
+    return section == "autopilot" && (name.starts_with("MC_") || name.starts_with("MPC_"));
 }
 
 bool is_part(std::string_view section, std::string_view name) {
-    return begins(section, "vehicle") && section != "vehicle.battery" &&
+    return section.starts_with("vehicle") && section != "vehicle.battery" &&
            section != "vehicle.payload" && !is_setting(section, name);
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/why/search.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +7,14 @@
 #include <map>
 #include <utility>
 
-#include "limpet/why/keys.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/core/words.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {
 
-constexpr std::size_t kSeeds = 3;  ///< single keys beside which all others are tried
+constexpr std::size_t kSeeds = 3;  ///< single keys with which all others are tried
 constexpr std::size_t kMostKeys = 3;
 constexpr std::size_t kMostOthers = 3;
 constexpr double kHelps = 0.05;  ///< of a stage: less is noise
@@ -32,10 +32,21 @@ private:
 
     [[nodiscard]] Trial whole(const Changes& changes, HoldTrace* trace = nullptr) {
         ++found_.flights;
-        return fly_trial(text_, changes,
-                         {.traces = trace != nullptr, .trace = trace, .stop = options_.stop});
+        Trial trial = fly_trial(
+            text_, changes, {.traces = trace != nullptr, .trace = trace, .stop = options_.stop});
+        if (options_.stop != nullptr && *options_.stop) {
+            throw Interrupted("interrupted; nothing was written");
+        }
+        note_fault(trial);
+        return trial;
     }
-    /// Each of `turned` beside `with`, the best of each key, furthest first; keys that help alone.
+    void note_fault(const Trial& trial) {
+        if (!trial.fault.empty()) {
+            found_.faults.push_back(trial.fault);
+        }
+    }
+    /// Each of `turned` together with `with`, the best of each key, furthest first; keys that help
+    /// alone.
     [[nodiscard]] std::vector<Trial> screen(const std::vector<Change>& turned, const Changes& with,
                                             const Trial& before);
     [[nodiscard]] bool reaches(const Trial& trial) const {
@@ -79,6 +90,7 @@ std::vector<Trial> Search::screen(const std::vector<Change>& turned, const Chang
     found_.flights += trials.size();
     std::map<std::string, Trial> best;
     for (Trial& trial : fly_trials(text_, std::move(trials), screening_, options_.jobs)) {
+        note_fault(trial);
         if (!helps(trial, before)) {
             continue;
         }
@@ -110,7 +122,7 @@ Trial Search::milder(Trial trial) {
             const double middle =
                 near * to > 0.0 ? std::copysign(std::sqrt(near * to), to) : 0.5 * (near + to);
             // A person would write two digits.
-            changes[i].to = std::stod(fmt::format("{:.2g}", middle));
+            changes[i].to = number_of(fmt::format("{:.2g}", middle)).value_or(middle);
             if (changes[i].to == to || changes[i].to == near) {
                 break;
             }
@@ -175,8 +187,8 @@ void Search::seek_remedy(const std::vector<Trial>& singles) {
     if (mending.empty()) {
         for (std::size_t i = 0; i < std::min(kSeeds, singles.size()); ++i) {
             tell(fmt::format("together with {} ...", singles[i].changes.front().override_text()));
-            const auto beside = screen(settings_, singles[i].changes, singles[i]);
-            pairs.insert(pairs.end(), beside.begin(), beside.end());
+            const auto found = screen(settings_, singles[i].changes, singles[i]);
+            pairs.insert(pairs.end(), found.begin(), found.end());
         }
         std::stable_sort(pairs.begin(), pairs.end(), further);
         take(pairs);
@@ -264,7 +276,7 @@ Found find_why(const scenario::ScenarioText& text, const SearchOptions& options)
     return Search(text, options).run();
 }
 
-const Hold* telling_hold(const Trial& trial) {
+const Hold* decisive_hold(const Trial& trial) {
     const Hold* best = nullptr;
     const auto order = [](const Hold& hold) {
         const bool landing = hold.phase == "pitching_up" || hold.phase == "unloading";

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "limpet/record/story.hpp"
-#include "limpet/why/report.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {
@@ -31,6 +31,17 @@ std::string changes_text(const std::vector<Change>& changes) {
     return text;
 }
 
+/// The least margin, where the cup ever held.
+std::string margin_text(const char* before, const Trial& trial) {
+    const double margin_N = trial.result.metrics.cup_margin_min_N;
+    return std::isfinite(margin_N) ? fmt::format("{}least margin {:.1f} N", before, margin_N) : "";
+}
+
+/// A whole number, 0 without a sign.
+double whole(double value) {
+    return std::round(value) + 0.0;
+}
+
 /// "0.11 s attached, holding, pitch to -2 deg"
 std::string held_text(const Hold& hold, double end_s) {
     std::string text = fmt::format("sealed at {:.2f} s, down to {:.0f} hPa", hold.sealed_s,
@@ -38,7 +49,8 @@ std::string held_text(const Hold& hold, double end_s) {
     if (std::isnan(hold.attached_s)) {
         text += ", not below the attachment threshold";
     }
-    text += fmt::format(", held {:.2f} s, pitch to {:.0f} deg", hold.held_s(end_s), hold.pitch_deg);
+    text += fmt::format(", held {:.2f} s, pitch to {:.0f} deg", hold.held_s(end_s),
+                        whole(hold.pitch_deg));
     if (std::isnan(hold.ended_s)) {
         return text + "; holds at the end";
     }
@@ -69,14 +81,14 @@ void add_loads(std::string& text, const Hold& hold) {
 }
 
 std::string how_far(const Trial& trial) {
-    const Hold* hold = telling_hold(trial);
+    const Hold* hold = decisive_hold(trial);
     std::string text = ending(trial);
     if (trial.stage < Stage::rested && hold != nullptr) {
         text += fmt::format("; {} after {:.2f} s at {:.0f} deg",
                             hold->let_go.empty() ? "holds" : hold->let_go,
-                            hold->held_s(trial.simulated_s), hold->pitch_deg);
+                            hold->held_s(trial.simulated_s), whole(hold->pitch_deg));
     } else if (trial.stage >= Stage::rested) {
-        text += fmt::format("; least margin {:.1f} N", trial.result.metrics.cup_margin_min_N);
+        text += margin_text("; ", trial);
     }
     return text;
 }
@@ -91,7 +103,7 @@ void add_holds(std::string& text, const Trial& base) {
         fmt::format_to(std::back_inserter(text), "{:<11}and {} more\n", "",
                        base.holds.size() - kMost);
     }
-    if (const Hold* hold = telling_hold(base); hold != nullptr && !std::isnan(hold->ended_s)) {
+    if (const Hold* hold = decisive_hold(base); hold != nullptr && !std::isnan(hold->ended_s)) {
         add_loads(text, *hold);
     }
 }
@@ -137,9 +149,7 @@ std::string why_text(const Found& found, const std::string& wanted) {
                                    ending(found.base));
     add_holds(text, found.base);
     if (found.base.stage == Stage::done) {
-        fmt::format_to(std::back_inserter(text), "{:<11}a success: least margin {:.1f} N\n", "why",
-                       found.base.result.metrics.cup_margin_min_N);
-        return text;
+        return text + fmt::format("{:<11}a success{}\n", "why", margin_text(": ", found.base));
     }
     add_remedy(text, found, wanted);
     if (!found.keys.empty()) {
@@ -155,6 +165,11 @@ std::string why_text(const Found& found, const std::string& wanted) {
             fmt::format_to(std::back_inserter(text), "  {}\n           {}\n",
                            change_text(part.change), how_far(part.alone));
         }
+    }
+    if (!found.faults.empty()) {
+        fmt::format_to(std::back_inserter(text),
+                       "\n{:<11}{} flights, which count as not flown; the first: {}\n", "faults",
+                       found.faults.size(), found.faults.front());
     }
     fmt::format_to(std::back_inserter(text), "\n{:<11}{} flown in {:.1f} s, {:.0f} a second\n",
                    "flights", found.flights, found.wall_s,

@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <mutex>
-#include <thread>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/parallel.hpp"
 #include "limpet/plant/lane_group.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/suction/force_law.hpp"
@@ -133,10 +131,11 @@ Trial fly_trial(const scenario::ScenarioText& text, std::vector<Change> changes,
         }};
     try {
         trial.result = simulation::fly(model, {}, watched, 0, {.stop = options.stop});
-    } catch (const InternalError&) {
+    } catch (const InternalError& error) {
         if (trial.changes.empty()) {
             throw;
         }
+        trial.fault = error.what();
         return trial;
     }
     trial.flown = true;
@@ -154,34 +153,20 @@ std::vector<Trial> fly_trials(const scenario::ScenarioText& text,
                               int jobs) {
     std::vector<Trial> flown(trials.size());
     std::atomic<std::size_t> next = 0;
-    std::exception_ptr failed;
-    std::mutex guards_failed;
+    const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
     const auto fly_some = [&] {
-        plant::fly_side_by_side([&] {
-            const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
+        try {
             for (std::size_t i = next++; i < trials.size() && !stopped(); i = next++) {
                 flown[i] = fly_trial(text, std::move(trials[i]), options);
             }
-        });
-    };
-    {
-        std::vector<std::jthread> threads;
-        for (int i = 0; i < std::max(1, jobs); ++i) {
-            threads.emplace_back([&] {
-                try {
-                    fly_some();
-                } catch (...) {
-                    next = trials.size();
-                    const std::lock_guard lock(guards_failed);
-                    failed = failed ? failed : std::current_exception();
-                }
-            });
+        } catch (...) {
+            next = trials.size();
+            throw;
         }
-    }
-    if (failed) {
-        std::rethrow_exception(failed);
-    }
-    if (options.stop != nullptr && *options.stop) {
+    };
+    for_each_index(static_cast<std::size_t>(std::max(1, jobs)), jobs,
+                   [&](std::size_t) { plant::fly_side_by_side(fly_some); });
+    if (stopped()) {
         throw Interrupted("interrupted; nothing was written");
     }
     return flown;

@@ -28,7 +28,7 @@ enum class Stage {
     sealed,    ///< it did not come below the attachment threshold
     attached,  ///< it let go before guidance began to land
     landing,   ///< it let go on the way to the rest, or never came to rest
-    rested,    ///< on the wall, motors off; what came then was not what was asked
+    rested,    ///< on the wall, motors off; but the rest of the mission failed
     done,      ///< a success
 };
 [[nodiscard]] inline std::string_view to_string(Stage stage) {
@@ -38,7 +38,8 @@ enum class Stage {
 /// A flight and how far it came.
 struct Trial {
     std::vector<Change> changes;
-    bool flown = false;  ///< false: its values do not go together
+    bool flown = false;  ///< false: its values do not go together, or a fault ended it
+    std::string fault;   ///< of ours, that ended it
     simulation::FlightResult result;
     std::vector<Hold> holds;
     Stage stage = Stage::nothing;

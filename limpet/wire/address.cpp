@@ -86,11 +86,10 @@ void read_network(const Parsed& parsed, std::string_view rest, TransportAddress&
             fmt::format("group '{}' is not in 224.0.0.0 to 239.255.255.255", address.host));
     }
     if (!group && is_group) {
-        parsed.refuse(
-            fmt::format("'{}' is a multicast group; ask for it with udp-multicast:", address.host));
+        parsed.refuse(fmt::format("'{}' is a multicast group; write udp-multicast:", address.host));
     }
     if (!group && address.host == "255.255.255.255" && address.medium != Medium::udp_broadcast) {
-        parsed.refuse("255.255.255.255 is a broadcast; ask for it with udp-broadcast:");
+        parsed.refuse("255.255.255.255 is a broadcast; write udp-broadcast:");
     }
 }
 

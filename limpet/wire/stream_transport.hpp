@@ -19,7 +19,7 @@ namespace limpet::wire {
 /// @throws InputError always
 [[noreturn]] void refuse_address(const TransportAddress& address, int error);
 
-/// @return is it worth another try: nothing there yet, no room yet, a signal
+/// @return is it worth another try: nothing there yet, no space yet, a signal
 [[nodiscard]] inline bool try_again(const boost::system::error_code& error) {
     return error == boost::asio::error::would_block || error == boost::asio::error::try_again ||
            error == boost::asio::error::interrupted;
@@ -54,7 +54,7 @@ public:
     }
 
     Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds timeout) override {
-        require(!into.empty(), "receive is given room");
+        require(!into.empty(), "receive is given space");
         const Deadline deadline(timeout);
         if (closed_ || !found(deadline)) {
             return {closed_ ? TransferStatus::closed : absent_, 0};

@@ -17,7 +17,8 @@ using boost::asio::ip::tcp;
 using boost::system::error_code;
 using std::chrono::nanoseconds;
 
-// Assumed: short beside the start of an autopilot, long beside a refusal on loopback (some 50 us).
+// Assumed: short compared with the start of an autopilot, long compared with a refusal on loopback
+// (some 50 us).
 constexpr nanoseconds kRetry = std::chrono::milliseconds(100);
 
 constexpr short kGoing = POLLRDHUP | POLLHUP | POLLERR;

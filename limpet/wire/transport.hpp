@@ -29,7 +29,7 @@ struct Transfer {
 
 /// Counts since the transport was opened.
 struct TransportStatistics {
-    std::uint64_t peers = 0;  ///< that came; a change tells that a parser must start anew
+    std::uint64_t peers = 0;  ///< that came; after a change a parser must start anew
     std::uint64_t peers_lost = 0;
     std::uint64_t peers_refused = 0;  ///< second TCP clients, datagrams of others
 };
@@ -45,11 +45,11 @@ class Transport {
 public:
     virtual ~Transport() = default;
 
-    /// Sends all bytes, in as many pieces as the wire takes. It waits for room, not for a peer.
+    /// Sends all bytes, in as many pieces as the wire takes. It waits for space, not for a peer.
     /// What a time-out leaves of a stream's message is not sent later: the receiver sees a cut
     /// frame.
     /// @param bytes    UDP: one datagram, up to 65507 bytes
-    /// @param timeout  longest wait for room, >= 0 (negative counts as 0)
+    /// @param timeout  longest wait for space, >= 0 (negative counts as 0)
     [[nodiscard]] virtual Transfer send(std::span<const std::byte> bytes,
                                         std::chrono::nanoseconds timeout) = 0;
 
@@ -70,7 +70,7 @@ public:
     /// Ends it for good; a second call does nothing. The destructor closes too.
     virtual void close() = 0;
 
-    /// @return where it is; with the port that the kernel chose where 0 was asked for
+    /// @return where it is; with the port that the kernel chose where 0 was requested
     [[nodiscard]] virtual TransportAddress address() const = 0;
     /// @return for people: address, role and peer
     [[nodiscard]] virtual std::string describe() const = 0;
@@ -99,10 +99,10 @@ enum class Role {
 /// loss.
 [[nodiscard]] std::unique_ptr<Transport> connect_tcp(const TransportAddress& address);
 
-/// listen: bound to the address, hears and answers one at a time: another is heard, and then
-/// answered, only once the former has been silent for 2 s (for a group: joined, hears all, answers
-/// who spoke last). connect: sends to the address; hears a single host's port alone, and for
-/// broadcast and multicast answers who spoke last.
+/// listen: bound to the address, receives from and answers one at a time: another is received, and
+/// then answered, only once the former has been silent for 2 s (for a group: joined, receives all,
+/// answers who spoke last). connect: sends to the address; receives from a single host's port
+/// alone, and for broadcast and multicast answers who spoke last.
 /// @throws InputError when the port is in use, the address not of this machine, or the group not
 /// joined
 [[nodiscard]] std::unique_ptr<Transport> open_udp(const TransportAddress& address, Role role);
@@ -131,17 +131,17 @@ enum class Role {
 [[nodiscard]] std::unique_ptr<Transport> open_pseudo_terminal(const std::filesystem::path& link);
 
 /// Hands over what is there, without waiting.
-/// @param room  for one piece
+/// @param buffer  for one piece
 /// @param most  so many pieces: a flood must not stop who listens
 /// @param take  called with the bytes of each
 template <class Take>
-void drain(Transport& wire, std::span<std::byte> room, int most, Take&& take) {
+void drain(Transport& wire, std::span<std::byte> buffer, int most, Take&& take) {
     for (; most > 0; --most) {
-        const Transfer transfer = wire.receive(room, {});
+        const Transfer transfer = wire.receive(buffer, {});
         if (transfer.status != TransferStatus::done) {
             return;
         }
-        take(std::span<const std::byte>(room.first(transfer.bytes)));
+        take(std::span<const std::byte>(buffer.first(transfer.bytes)));
     }
 }
 

@@ -17,7 +17,7 @@ using boost::system::error_code;
 using std::chrono::nanoseconds;
 namespace multicast = boost::asio::ip::multicast;
 
-/// So long after its last word a peer keeps its place, and others are not heard. Source: assumed,
+/// So long after its last word a peer keeps its place, and others are ignored. Source: assumed,
 /// PX4's slowest stream is its heartbeat at 1 Hz
 constexpr std::chrono::seconds kFaithful{2};
 /// Datagrams of others, dropped after the time is up: a flood must not stop who listens.
@@ -72,7 +72,7 @@ public:
     }
 
     Transfer receive(std::span<std::byte> into, nanoseconds timeout) override {
-        require(!into.empty(), "receive is given room");
+        require(!into.empty(), "receive is given space");
         if (closed_) {
             return {TransferStatus::closed, 0};
         }
@@ -122,7 +122,7 @@ public:
     const TransportStatistics& statistics() const override { return statistics_; }
 
 private:
-    /// Of a listening end on a single host: commands must not go to whoever sends rubbish.
+    /// Of a listening end on a single host: commands must not go to who sends rubbish.
     bool one_at_a_time() const { return role_ == Role::listen && address_.medium == Medium::udp; }
     bool peer_speaks() const { return std::chrono::steady_clock::now() - spoke_ < kFaithful; }
     bool lets_in(std::span<const std::byte> datagram) const {
@@ -154,9 +154,9 @@ private:
             error_code error;
             socket_.connect(there_, error);  // the kernel drops what others send
             if (error.value() == EACCES) {
-                throw InputError(
-                    fmt::format("address '{}': {} is a broadcast; ask for it with udp-broadcast:",
-                                to_text(address_), address_.host));
+                throw InputError(fmt::format(
+                    "address '{}': {} is a broadcast; write udp-broadcast:", to_text(address_),
+                    address_.host));
             }
             if (error) {
                 refuse_address(address_, error.value());

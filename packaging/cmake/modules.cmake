@@ -86,7 +86,7 @@ function(limpet_module name)
 endfunction()
 
 # limpet_files(VARIABLE PATTERN...): files there and in folders below. One more or less changes its folder, which configures
-# anew; with CONFIGURE_DEPENDS a dry run of ninja always had something to do, and ./run said so each time.
+# anew; with CONFIGURE_DEPENDS a dry run of ninja always had something to do, and ./run reported it each time.
 function(limpet_files variable)
   file(GLOB_RECURSE found ${ARGN})
   foreach(file ${ARGN} ${found})
@@ -105,7 +105,7 @@ function(limpet_text variable file)
 endfunction()
 
 # limpet_test(MODULE SOURCES files... LINKS targets... [LABEL label] [ALONE]): one test program a module.
-# ALONE: nothing else runs beside it, for it lives in real time.
+# ALONE: no other test runs meanwhile, for it runs in real time.
 # The label `pictures` is for tests that draw: the sanitizers leave them out, they would watch Mesa.
 function(limpet_test module)
   cmake_parse_arguments(TEST "ALONE" "LABEL" "SOURCES;LINKS" ${ARGN})
@@ -138,7 +138,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86
                              -mmemcpy-strategy=vector_loop:1024:noalign,libcall:-1:noalign)
 endif()
 
-# Eigen multiplies and adds at once on arm64 by name, whatever -ffp-contract says, if this is defined (docs/arm64.md).
+# Eigen multiplies and adds at once on arm64 by name, whatever -ffp-contract is, if this is defined (docs/arm64.md).
 set(LIMPET_NO_FUSING)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   set(LIMPET_NO_FUSING -U__ARM_FEATURE_FMA)

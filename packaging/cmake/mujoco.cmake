@@ -1,4 +1,4 @@
-# MuJoCo's headers: the library is loaded when it is asked for (limpet/loaded). Debian's mujocoConfig.cmake names a
+# MuJoCo's headers: the library is loaded at its first use (limpet/loaded). Debian's mujocoConfig.cmake names a
 # folder of libqhull-dev, which libmujoco-dev does not depend on.
 find_path(MUJOCO_INCLUDE_DIR mujoco/mujoco.h REQUIRED)
 add_library(mujoco INTERFACE IMPORTED GLOBAL)

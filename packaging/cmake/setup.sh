@@ -73,8 +73,8 @@ install_node() {
     command -v npm >/dev/null || install_packages "$limpet_root/packaging/cmake/node_packages.txt"
 }
 
-# fetch_node_packages FROM TO: what a folder's package.json asks for; without npm or network the tests
-# that want it say so and are skipped.
+# fetch_node_packages FROM TO: the packages of a folder's package.json; without npm or network the tests
+# that need them report it and are skipped.
 fetch_node_packages() {
     local from=$limpet_root/$1 to=$limpet_root/$2
     command -v npm >/dev/null || return 0
@@ -100,7 +100,7 @@ looked_for() {
 
 # configure_if_new TREE KNOWN CMAKE...: configures a tree that is not, and anew one that was when KNOWN was another: from
 # nothing, so that what was not found then is looked for again. Options that somebody has set stay, unless CMAKE or the
-# presets say otherwise today. A tree that cannot be configured keeps its cache.
+# presets differ today. A tree that cannot be configured keeps its cache.
 configure_if_new() {
     local tree=$limpet_root/build/$1 known=$2 option name kept=() cache preset
     cache=$tree/CMakeCache.txt

@@ -47,7 +47,7 @@ TEST(CompanionVerb, CheckSaysWhatItWouldDoAndOpensNothing) {
     for (const char* part : {"autopilot   serial:/dev/ttyAMA0:921600", "waits until an operator",
                              "NatNet on udp-multi", "TFmini Plus, left serial:",
                              "lines over serial:", "signing     none", "hands back  pose",
-                             "loop        asks for SCHED_FIFO 20 and locked memory"}) {
+                             "loop        requests SCHED_FIFO 20 and locked memory"}) {
         EXPECT_THAT(finished.out, HasSubstr(part));
     }
     EXPECT_TRUE(bench.files().empty());
@@ -97,7 +97,7 @@ TEST(CompanionVerb, SaysWhetherItGotRealTimeAndHowLateItWas) {
                                      "loop.real_time_priority=" + priority, "--no-record"}));
         EXPECT_EQ(finished.exit_code, 2) << finished.err;
         EXPECT_THAT(finished.out,
-                    testing::ContainsRegex(priority == "0" ? "real time: not asked for"
+                    testing::ContainsRegex(priority == "0" ? "real time: not requested"
                                                            : "real time: .*(SCHED_FIFO 5|memory)"));
         EXPECT_THAT(finished.out, testing::ContainsRegex(
                                       "[0-9]+ ticks, [0-9]+ of them late by more than a period; "
@@ -171,12 +171,12 @@ TEST(CompanionUnit, IsAsSystemdWantsIt) {
         (void)bench.write("limpet-companion@.service", text);
         (void)std::system(("cd " + folder +
                            " && systemd-analyze verify --man=no ./limpet-companion@wall.service "
-                           ">said 2>&1; echo exit $? >>said")
+                           ">log 2>&1; echo exit $? >>log")
                               .c_str());
-        std::istringstream said(text_of(bench.folder() / "said"));
+        std::istringstream log(text_of(bench.folder() / "log"));
         std::string ours;
         for (std::string line;
-             std::getline(said, line);) {  // it speaks of the machine's units, too
+             std::getline(log, line);) {  // it reports on the machine's units, too
             if (line.find("limpet-companion") != std::string::npos || line == "exit 1") {
                 ours += line + "\n";
             }
@@ -191,7 +191,7 @@ TEST(CompanionVerb, CtrlCEndsItsWaitInGoodOrder) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const Bench bench;
         Started companion(bench.folder(), "companion", Ports().companion_words({"--out", "o"}));
-        ASSERT_TRUE(companion.says("waits: no", 20s)) << companion.output();
+        ASSERT_TRUE(companion.prints("waits: no", 20s)) << companion.output();
         companion.signal(signal);
         const Finished finished = companion.wait(20s);
         EXPECT_EQ(finished.exit_code, 130) << finished.err;
@@ -245,7 +245,7 @@ TEST_F(ThreeProcesses, PerchAndTakeOff) {
 
 TEST_F(ThreeProcesses, CtrlCWhileItLandsLeavesTheVehicleOnTheWall) {
     Started companion(bench.folder(), "companion", patient({"--out", "companion_out"}));
-    ASSERT_TRUE(companion.says("landing_started", kLong)) << companion.output();
+    ASSERT_TRUE(companion.prints("landing_started", kLong)) << companion.output();
     companion.signal(SIGINT);
     companion.signal(SIGTERM);  // no further one hastens it
     std::this_thread::sleep_for(1200ms);
@@ -253,7 +253,7 @@ TEST_F(ThreeProcesses, CtrlCWhileItLandsLeavesTheVehicleOnTheWall) {
     const Finished flown = companion.wait(60s);
     EXPECT_EQ(flown.exit_code, 130) << flown.out << flown.err;
     EXPECT_THAT(flown.out, HasSubstr("goes on until it rests or is off the wall"));
-    EXPECT_THAT(flown.out, HasSubstr("nothing asked for; the pump stays on"));
+    EXPECT_THAT(flown.out, HasSubstr("nothing requested; the pump stays on"));
     EXPECT_THAT(flown.out, testing::Not(HasSubstr("motors_on")));
     EXPECT_EQ(record::read_recording(bench.folder() / "companion_out/flight.mcap").damage, "");
     const Finished seen = surroundings.wait(20s);

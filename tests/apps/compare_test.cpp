@@ -66,15 +66,15 @@ TEST(CompareVerb, TheVehicleHangsWithItsWeightAndTheJsonSaysSo) {
     const Finished compared = bench.run({"compare", "fine/flight.mcap", "coarse/flight.mcap",
                                          "--json", "--limit", "rest_hanging_load_off_weight=1e-4"});
     ASSERT_EQ(compared.exit_code, 0) << compared.err;
-    const auto said = nlohmann::json::parse(compared.out);
-    EXPECT_EQ(said["reference"]["label"], "fine");
-    const auto& other = said["others"][0];
+    const auto printed = nlohmann::json::parse(compared.out);
+    EXPECT_EQ(printed["reference"]["label"], "fine");
+    const auto& other = printed["others"][0];
     EXPECT_EQ(other["flight"]["outcome"], "released");
     EXPECT_EQ(other["contacts"].size(), 2u);
     for (const auto& contact : other["contacts"]) {
         EXPECT_LT(contact["largest_hPa"].get<double>(), 1.0);
     }
-    EXPECT_EQ(said["limits"][0]["exceeded"], false);
+    EXPECT_EQ(printed["limits"][0]["exceeded"], false);
 }
 
 TEST(CompareVerb, LeavesFiguresAndJsonInTheFolder) {

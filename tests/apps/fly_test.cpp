@@ -17,7 +17,7 @@ TEST(Fly, PrintsExactlyOneJsonObject) {
     const Bench bench;
     const Finished flight = bench.run({"fly", "perch_concrete", "--json"});
     ASSERT_EQ(flight.exit_code, 0) << flight.err;
-    const json result = json::parse(flight.out);  // throws on anything beside it
+    const json result = json::parse(flight.out);  // throws on anything else
     EXPECT_EQ(result["outcome"], "released");
     EXPECT_EQ(result["attempts"], 1);
     EXPECT_EQ(result["scenario"], "perch_concrete");
@@ -40,7 +40,7 @@ TEST(Fly, TellsAPersonWhatHappenedAndWhereItLies) {
     EXPECT_THAT(bench.files(), Contains("here/take_off.png"));
 }
 
-/// A picture beside a recording is of that flight.
+/// A picture next to a recording is of that flight.
 TEST(Fly, FiguresOfTheFlightBeforeGoWithIt) {
     const Bench bench;
     ASSERT_EQ(bench.run({"fly", "perch_concrete", "--out", "."}).exit_code, 0);

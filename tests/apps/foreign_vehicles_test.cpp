@@ -12,28 +12,20 @@
 #include <map>
 
 #include "../support/png.hpp"
+#include "mcap_bytes.hpp"
 #include "program.hpp"
 
 namespace limpet::foreign {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-void expect_line(const Finished& finished, const std::vector<std::string>& texts) {
-    EXPECT_EQ(finished.exit_code, 2) << finished.err;
-    EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
-    for (const std::string& text : texts) {
-        EXPECT_THAT(finished.err, HasSubstr(text));
-    }
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
     return text.replace(text.find(what), what.size(), with);
 }
 
-/// A URDF of one body; what is in `visuals` stands on lines of its own from the second on.
+/// A URDF of one body; `visuals` begin on the second line.
 std::string urdf(const std::string& visuals) {
     return "<robot name=\"frame\"><link name=\"base_link\"><inertial><mass value=\"1.4\"/><inertia "
            "ixx=\"0.02\" iyy=\"0.02\" izz=\"0.035\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>\n" +
@@ -146,8 +138,8 @@ TEST_F(ForeignVehicle, AMeshThatCannotBeReadIsRefusedWhereItIsNamed) {
     for (const char* name : {"empty.dae", "far.stl", "point.stl", "short.stl", "broken.obj",
                              "broken.ply", "mesh.gltf", "missing.stl"}) {
         write_vehicle(visual(name));
-        expect_line(check(), {"frame.urdf:2: mesh \"" + std::string(name) + "\": "});
-        expect_line(fly(), {"frame.urdf:2: mesh \"" + std::string(name) + "\": "});
+        expect_refused(check(), {"frame.urdf:2: mesh \"" + std::string(name) + "\": "});
+        expect_refused(fly(), {"frame.urdf:2: mesh \"" + std::string(name) + "\": "});
     }
     EXPECT_FALSE(fs::exists(bench_.folder() / "o"));
 }
@@ -180,9 +172,10 @@ TEST_F(ForeignVehicle, XacroThatIsNotExpandedIsRefused) {
     write("frame.urdf",
           replaced(urdf("<visual><geometry><box size=\"0.1 0.1 0.1\"/></geometry></visual>"),
                    "\"1.4\"", "\"${1.2 + 0.2}\""));
-    expect_line(check(), {"frame.urdf:1: mass value=\"${1.2 + 0.2}\": this is xacro", "`xacro "});
+    expect_refused(check(),
+                   {"frame.urdf:1: mass value=\"${1.2 + 0.2}\": this is xacro", "`xacro "});
     write("frame.urdf", urdf("<xacro:arm angle=\"45\"/>\n"));
-    expect_line(check(), {"frame.urdf:2: <xacro:arm>: this is xacro"});
+    expect_refused(check(), {"frame.urdf:2: <xacro:arm>: this is xacro"});
 }
 
 TEST_F(ForeignVehicle, APathThatCannotBeFollowedIsRefused) {
@@ -197,29 +190,29 @@ TEST_F(ForeignVehicle, APathThatCannotBeFollowedIsRefused) {
         for (const char* verb :
              {"check", "fly", "campaign", "companion", "rare", "study", "export", "px4-params"}) {
             SCOPED_TRACE(verb);
-            expect_line(bench_.run({verb, name}), {});
+            expect_refused(bench_.run({verb, name}), {});
         }
-        expect_line(bench_.run({"fly", "hover", "--set", "vehicle=" + name, "--out", "o"}), {});
-        expect_line(bench_.run({"fly", "hover", "--set", "wall.surface=" + name, "--out", "o"}),
-                    {});
-        expect_line(bench_.run({"fly", "hover", "--out", "o/" + name + "/loop/x", "--set",
-                                "vehicle=" + name}),
-                    {});
+        expect_refused(bench_.run({"fly", "hover", "--set", "vehicle=" + name, "--out", "o"}), {});
+        expect_refused(bench_.run({"fly", "hover", "--set", "wall.surface=" + name, "--out", "o"}),
+                       {});
+        expect_refused(bench_.run({"fly", "hover", "--out", "o/" + name + "/loop/x", "--set",
+                                   "vehicle=" + name}),
+                       {});
     }
     for (const std::string& name : {std::string("loop.mcap"), longest + ".mcap"}) {
         for (const char* verb : {"check", "plot", "film", "csv", "ulog", "view", "calibrate",
                                  "replay", "summary", "identify"}) {
             SCOPED_TRACE(verb);
-            expect_line(bench_.run({verb, name}), {});
+            expect_refused(bench_.run({verb, name}), {});
         }
     }
     for (const std::string& name : {std::string("loop.urdf"), longest + ".urdf"}) {
         write("frame.yaml", replaced(kVehicle, "frame.urdf", name));
-        expect_line(check(), {"frame.yaml:2: model.urdf"});
-        expect_line(fly(), {"frame.yaml:2: model.urdf"});
+        expect_refused(check(), {"frame.yaml:2: model.urdf"});
+        expect_refused(fly(), {"frame.yaml:2: model.urdf"});
     }
-    expect_line(bench_.run({"fly", "hover", "--out", "loop"}), {"--out loop"});
-    expect_line(bench_.run({"fly", "hover", "--out", longest}), {"--out nnn"});
+    expect_refused(bench_.run({"fly", "hover", "--out", "loop"}), {"--out loop"});
+    expect_refused(bench_.run({"fly", "hover", "--out", longest}), {"--out nnn"});
 }
 
 TEST_F(ForeignVehicle, ARecordingThatIsBeingWrittenIsCheckedAsOne) {
@@ -234,23 +227,8 @@ TEST_F(ForeignVehicle, ARecordingThatIsBeingWrittenIsCheckedAsOne) {
     EXPECT_EQ(checked.exit_code, 0) << checked.err;
     EXPECT_THAT(checked.out, HasSubstr("whole.mcap.part: a whole recording"));
     write("cut.mcap.part", text_of(whole).substr(0, fs::file_size(whole) / 2));
-    expect_line(bench_.run({"check", "cut.mcap.part"}), {"cut.mcap.part: cut off"});
-    expect_line(bench_.run({"check", path("cut.mcap.part")}), {"cut.mcap.part: cut off"});
-}
-
-/// Little-endian, as MCAP and CDR have it.
-std::string number(std::uint64_t value, int bytes) {
-    std::string raw;
-    for (int i = 0; i < bytes; ++i) {
-        raw += static_cast<char>(value >> (8 * i));
-    }
-    return raw;
-}
-std::string text(const std::string& content) {
-    return number(content.size(), 4) + content;
-}
-std::string record(int opcode, const std::string& content) {
-    return number(static_cast<std::uint64_t>(opcode), 1) + number(content.size(), 8) + content;
+    expect_refused(bench_.run({"check", "cut.mcap.part"}), {"cut.mcap.part: cut off"});
+    expect_refused(bench_.run({"check", path("cut.mcap.part")}), {"cut.mcap.part: cut off"});
 }
 
 /// A recording of two poses so far apart in time, with a model.
@@ -265,20 +243,12 @@ std::string recording(const std::string& model, double x_m, std::uint64_t span_n
     for (const double value : {x_m, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) {
         std::uint64_t bits = 0;
         std::memcpy(&bits, &value, sizeof bits);
-        pose += number(bits, 8);
+        pose += mcap_bytes::number(bits, 8);
     }
-    std::string records =
-        record(3, number(1, 2) + text("geometry_msgs/msg/PoseStamped") + text("ros2msg") +
-                      text(type)) +
-        record(4, number(1, 2) + number(1, 2) + text("/truth/pose") + text("cdr") + number(0, 4));
-    for (const std::uint64_t at : {std::uint64_t{0}, span_ns}) {
-        records += record(5, number(1, 2) + number(0, 4) + number(at, 8) + number(at, 8) + pose);
-    }
-    records += record(9, number(0, 8) + number(0, 8) + text("model.xml") + text("text/plain") +
-                             number(model.size(), 8) + model + number(0, 4));
-    const std::string magic = "\x89MCAP0\r\n";
-    return magic + record(1, text("ros2") + text("x")) + records + record(0x0F, number(0, 4)) +
-           record(2, number(0, 8) + number(0, 8) + number(0, 4)) + magic;
+    return mcap_bytes::recording(
+        mcap_bytes::channel("/truth/pose", "geometry_msgs/msg/PoseStamped", type) +
+        mcap_bytes::message(0, pose) + mcap_bytes::message(span_ns, pose) +
+        mcap_bytes::attachment("model.xml", model));
 }
 std::string model(const std::string& inside) {
     return "<mujoco>" + inside +
@@ -308,32 +278,32 @@ TEST_F(ForeignVehicle, AStrangersModelIsFilmedAsFarAsItIsOneOfOurs) {
         {"<asset><material name=\"a\" texture=\"none\"/></asset>", "model.xml: "},
         {"<worldbody><geom type=\"mesh\" mesh=\"none\"/></worldbody>", "<worldbody>: at most 1"},
     };
-    for (const auto& [inside, said] : bad) {
+    for (const auto& [inside, refused] : bad) {
         SCOPED_TRACE(inside);
         write("bad.mcap", recording(model(inside), 0.0, 1'000'000'000));
         const auto before = bench_.files();
         const auto start = std::chrono::steady_clock::now();
-        expect_line(bench_.run({"film", "bad.mcap"}), {"model.xml:", said});
+        expect_refused(bench_.run({"film", "bad.mcap"}), {"model.xml:", refused});
         EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
         EXPECT_EQ(bench_.files(), before);
     }
     write("bad.mcap", recording("<mujoco/>", 0.0, 1'000'000'000));
-    expect_line(bench_.run({"film", "bad.mcap"}), {"no body \"base\""});
+    expect_refused(bench_.run({"film", "bad.mcap"}), {"no body \"base\""});
 }
 
 TEST_F(ForeignVehicle, AStrangeSceneIsRefusedBeforeItIsDrawn) {
     for (const double x_m : {1e300, 1e6, std::nan(""), HUGE_VAL}) {
         SCOPED_TRACE(x_m);
         write("odd.mcap", recording(model(""), x_m, 1'000'000'000));
-        expect_line(bench_.run({"film", "odd.mcap"}), {"a pose must be finite numbers"});
+        expect_refused(bench_.run({"film", "odd.mcap"}), {"a pose must be finite numbers"});
     }
     write("odd.mcap", recording(model(""), 0.0, 4'000'000'000'000));
     const test::Environment nothing("PATH", bench_.folder().string());
-    expect_line(bench_.run({"film", "odd.mcap", "--video", "mp4"}), {"apt-get install ffmpeg"});
+    expect_refused(bench_.run({"film", "odd.mcap", "--video", "mp4"}), {"apt-get install ffmpeg"});
     write("ffmpeg", "#!/bin/sh\n");
     fs::permissions(bench_.folder() / "ffmpeg", fs::perms::owner_all);
-    expect_line(bench_.run({"film", "odd.mcap", "--video", "mp4"}),
-                {"odd.mcap: a video of 4000 s, must be at most 1800 s long"});
+    expect_refused(bench_.run({"film", "odd.mcap", "--video", "mp4"}),
+                   {"odd.mcap: a video of 4000 s, must be at most 1800 s long"});
 }
 
 }  // namespace

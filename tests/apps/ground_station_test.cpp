@@ -44,7 +44,7 @@ public:
         }
         return true;
     }
-    [[nodiscard]] bool said(const std::string& text) const {
+    [[nodiscard]] bool received_text(const std::string& text) const {
         return texts.find(text) != std::string::npos;
     }
     void set(const char* name, float value) {
@@ -56,7 +56,7 @@ public:
 
     wire::Transport& transport;  ///< the link's
     mavlink::Link link;
-    std::map<std::uint32_t, int> heard;
+    std::map<std::uint32_t, int> received;
     std::map<std::string, float> parameters;
     int parameter_count = -1;
     std::string texts;
@@ -67,7 +67,7 @@ private:
         : transport(*opened),
           link(std::move(opened), {.system = 255, .component = mavlink::kGroundStationComponent}) {}
     void take(const mavlink::Frame& frame) {
-        ++heard[frame.id];
+        ++received[frame.id];
         if (const auto value = decode<mavlink::ParamValue>(frame)) {
             parameters[std::string(text_of(value->param_id))] = value->param_value;
             parameter_count = value->param_count;
@@ -90,7 +90,7 @@ TEST(GroundStation, SeesAFlightAndSetsItsParameters) {
     GroundView view;
     auto flight = start(bench, {"fly", "hover", "--set", "simulation.hover_s=20", "--speed", "4",
                                 "--no-figures", "--out", ".", "--ground-station", view.address()});
-    ASSERT_TRUE(view.until([&] { return view.heard[mavlink::Heartbeat::kId] > 0; }));
+    ASSERT_TRUE(view.until([&] { return view.received[mavlink::Heartbeat::kId] > 0; }));
     EXPECT_TRUE(view.armed);
     EXPECT_EQ(view.link.send(mavlink::ParamRequestList{.target_system = 1}),
               wire::TransferStatus::done);
@@ -104,14 +104,14 @@ TEST(GroundStation, SeesAFlightAndSetsItsParameters) {
     view.set("MC_PITCHRATE_P", 0.125F);
     EXPECT_TRUE(view.until([&] { return view.parameters["MC_PITCHRATE_P"] == 0.125F; }));
     view.set("MPC_THR_HOVER", 7.0F);
-    EXPECT_TRUE(view.until([&] { return view.said("MPC_THR_HOVER = 7 refused"); }));
-    EXPECT_TRUE(view.until([&] { return view.said("released: "); }));
-    EXPECT_TRUE(view.said("parameter_set, MC_PITCHRATE_P 0.125\n"));
+    EXPECT_TRUE(view.until([&] { return view.received_text("MPC_THR_HOVER = 7 refused"); }));
+    EXPECT_TRUE(view.until([&] { return view.received_text("released: "); }));
+    EXPECT_TRUE(view.received_text("parameter_set, MC_PITCHRATE_P 0.125\n"));
     for (const std::uint32_t id :
          {mavlink::SysStatus::kId, mavlink::Attitude::kId, mavlink::LocalPositionNed::kId,
           mavlink::GlobalPositionInt::kId, mavlink::HomePosition::kId, BatteryStatus::kId,
           mavlink::DistanceSensor::kId, mavlink::ExtendedSysState::kId}) {
-        EXPECT_GT(view.heard[id], 3) << id;
+        EXPECT_GT(view.received[id], 3) << id;
     }
 
     const Finished finished = flight.get();
@@ -134,7 +134,7 @@ TEST(GroundStation, WithAKeyServesOnlyWhoHasIt) {
     auto flight =
         start(bench, {"fly", "hover", "--set", "simulation.hover_s=20", "--speed", "4",
                       "--no-record", "--ground-station", view.address(), "--signing-key", "key"});
-    ASSERT_TRUE(view.until([&] { return view.heard[mavlink::Heartbeat::kId] > 0; }));
+    ASSERT_TRUE(view.until([&] { return view.received[mavlink::Heartbeat::kId] > 0; }));
     view.set("MC_PITCHRATE_P", 0.1F);  // unsigned
     view.link.sign({.key = read_signing_key(file), .link_id = 3, .unix_us = [] {
                         return static_cast<std::uint64_t>(
@@ -144,7 +144,7 @@ TEST(GroundStation, WithAKeyServesOnlyWhoHasIt) {
                     }});
     view.set("MC_ROLLRATE_P", 0.1F);
     EXPECT_TRUE(view.until([&] { return view.parameters["MC_ROLLRATE_P"] == 0.1F; }));
-    EXPECT_TRUE(view.until([&] { return view.said("released: "); }));
+    EXPECT_TRUE(view.until([&] { return view.received_text("released: "); }));
     EXPECT_EQ(view.parameters.count("MC_PITCHRATE_P"), 0U);
     const Finished finished = flight.get();
     EXPECT_THAT(finished.out, HasSubstr("ground station: refused: not signed\n"));

@@ -17,7 +17,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Porous concrete by eqs. (5) and (6), as a sensor of 0.5 hPa with 6 hPa of pump tells it.
+/// Porous concrete by eqs. (5) and (6), as a sensor of 0.5 hPa with 6 hPa of pump measures it.
 std::string concrete_log(double from_s = 0.0, double to_s = 7.0) {
     std::string csv = "# bench\nnote,pressure_Pa,t_s\n";
     const int first = static_cast<int>(std::lround(100.0 * from_s));
@@ -77,7 +77,7 @@ TEST(Identify, FindsASampleByItsName) {
 /// Its model of a flight has neither: numbers would come out, and be wrong.
 TEST(Calibrate, RefusesWhatItDoesNotKnow) {
     const Bench bench;
-    for (const auto& [change, said] :
+    for (const auto& [change, error] :
          {std::pair("vehicle.payload.mass_kg=0.2", "a payload on a cable"),
           std::pair("vehicle.rotor.motor_kv_rpm_V=380", "motors by motor_kv_rpm_V")}) {
         ASSERT_EQ(bench
@@ -89,7 +89,7 @@ TEST(Calibrate, RefusesWhatItDoesNotKnow) {
         EXPECT_EQ(finished.exit_code, 2);
         EXPECT_EQ(finished.out, "");
         EXPECT_EQ(finished.err, "limpet: flown/flight.mcap: the vehicle that flew has " +
-                                    std::string(said) + ", which calibrate does not know\n");
+                                    std::string(error) + ", which calibrate does not know\n");
     }
 }
 
@@ -138,7 +138,7 @@ TEST(Calibrate, AsksWhichVehicleWhereNothingSaysIt) {
     EXPECT_THAT(named.err, Not(HasSubstr("mine.yaml"))) << named.err;
 }
 
-/// A log that tells nothing of the inertia: whatever comes out is not offered.
+/// A log that does not determine the inertia: what comes out is not offered.
 TEST(Calibrate, OffersNoImplausibleInertia) {
     const Bench bench;
     std::string csv =
@@ -178,19 +178,19 @@ TEST(Identify, JsonIsInSiAndHoldsTheTruth) {
     (void)bench.write("log.csv", concrete_log());
     const Finished finished = bench.run({"identify", "log.csv", "--json"});
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    const auto said = nlohmann::json::parse(finished.out);
+    const auto printed = nlohmann::json::parse(finished.out);
     const std::pair<const char*, double> truths[] = {
         {"vacuum_pressure_Pa", 65000.0},     {"sealing_time_constant_s", 0.33},
         {"unsealing_time_constant_s", 0.40}, {"atmosphere_Pa", 101600.0},
         {"atmosphere_offset_Pa", 275.0},     {"sealing_begins_s", 1.0},
         {"unsealing_begins_s", 4.0}};
     for (const auto& [key, truth] : truths) {
-        EXPECT_NEAR(said[key]["value"].get<double>(), truth, 0.005 * truth) << key;
-        EXPECT_LT(said[key]["low"].get<double>(), said[key]["value"].get<double>()) << key;
-        EXPECT_GT(said[key]["high"].get<double>(), said[key]["value"].get<double>()) << key;
+        EXPECT_NEAR(printed[key]["value"].get<double>(), truth, 0.005 * truth) << key;
+        EXPECT_LT(printed[key]["low"].get<double>(), printed[key]["value"].get<double>()) << key;
+        EXPECT_GT(printed[key]["high"].get<double>(), printed[key]["value"].get<double>()) << key;
     }
-    EXPECT_NEAR(said["ripple_Hz"]["value"].get<double>(), 50.0 / 6.283185307, 0.02);
-    EXPECT_EQ(said["nearest_surface"], "porous_concrete");
+    EXPECT_NEAR(printed["ripple_Hz"]["value"].get<double>(), 50.0 / 6.283185307, 0.02);
+    EXPECT_EQ(printed["nearest_surface"], "porous_concrete");
     EXPECT_THAT(bench.files(), testing::ElementsAre("log.csv"));
 }
 

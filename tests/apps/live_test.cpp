@@ -20,11 +20,11 @@ using testing::HasSubstr;
 
 /// Who takes the address as it was printed.
 std::unique_ptr<SocketClient> watch(const Started& program) {
-    const std::string said = program.output();
+    const std::string printed = program.output();
     std::smatch found;
     EXPECT_TRUE(
-        std::regex_search(said, found, std::regex(R"(ws://127\.0\.0\.1:(\d+)(/\?token=\w+))")))
-        << said;
+        std::regex_search(printed, found, std::regex(R"(ws://127\.0\.0\.1:(\d+)(/\?token=\w+))")))
+        << printed;
     auto viewer =
         std::make_unique<SocketClient>(static_cast<std::uint16_t>(std::stoul(found[1].str())));
     viewer->shake_hands(found[2].str(), "foxglove.websocket.v1");
@@ -50,7 +50,7 @@ TEST(LiveView, ACompanionIsWatchedAndToldToHandBack) {
         bench.folder(), "companion",
         {"companion", "simulation", "--set", "autopilot.address=udp:" + free_port(SOCK_DGRAM),
          "--set", "sensors.address=udp:" + free_port(SOCK_DGRAM), "--out", "o", "--live", "0"});
-    ASSERT_TRUE(companion.says("waits: no", 20s)) << companion.output();
+    ASSERT_TRUE(companion.prints("waits: no", 20s)) << companion.output();
     const auto viewer = watch(companion);
     EXPECT_EQ(next(*viewer, "serverInfo").at("name"), "limpet companion: simulation");
     EXPECT_GT(next(*viewer, "advertise").at("channels").size(), 15U);
@@ -71,7 +71,7 @@ TEST(LiveView, TheSurroundingsAreWatchedAlone) {
         bench.folder(), "surroundings",
         {"sim-io", "perch_concrete", "--hil", "tcp:" + free_port(SOCK_STREAM), "--sensors",
          "udp:" + free_port(SOCK_DGRAM), "--no-figures", "--out", "o", "--live", "0"});
-    ASSERT_TRUE(surroundings.says("ws://", 20s)) << surroundings.output();
+    ASSERT_TRUE(surroundings.prints("ws://", 20s)) << surroundings.output();
     const auto viewer = watch(surroundings);
     const nlohmann::json info = next(*viewer, "serverInfo");
     EXPECT_EQ(info.at("name"), "limpet sim-io: perch_concrete");

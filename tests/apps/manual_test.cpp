@@ -54,11 +54,11 @@ TEST(Manual, HoldsEveryVerbAndOption) {
     for (const std::string& verb : verbs()) {
         EXPECT_THAT(help, HasSubstr("\n  " + verb + " ")) << "another verb: name it here";
         EXPECT_THAT(page, HasSubstr(".SS \\fBlimpet\\fR \\fB" + typeset(verb) + "\\fR"));
-        const std::string told = bench.run({verb, "--help"}).out;
-        const std::size_t from = told.find("Options:");
-        std::istringstream lines(from == told.npos ? "" : told.substr(from));
+        const std::string of_verb = bench.run({verb, "--help"}).out;
+        const std::size_t from = of_verb.find("Options:");
+        std::istringstream lines(from == of_verb.npos ? "" : of_verb.substr(from));
         for (std::string line; std::getline(lines, line);) {
-            if (line.rfind("  -", 0) == 0) {  // the line of an option, not what is told of it
+            if (line.rfind("  -", 0) == 0) {  // the line of an option, not its description
                 for (const std::string& option : options_in(line.substr(0, line.find("  ", 2)))) {
                     if (option != "--help") {
                         EXPECT_THAT(page, HasSubstr("\\fB" + typeset(option) + "\\fR")) << verb;

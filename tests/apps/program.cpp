@@ -2,6 +2,7 @@
 #include "program.hpp"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
@@ -20,6 +21,15 @@ namespace fs = std::filesystem;
 
 bool Finished::one_line_of_error() const {
     return err.rfind("limpet: ", 0) == 0 && std::count(err.begin(), err.end(), '\n') == 1;
+}
+
+void expect_line_of_error(const Finished& finished, int exit_code,
+                          const std::vector<std::string>& texts) {
+    EXPECT_EQ(finished.exit_code, exit_code) << finished.err;
+    EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+    for (const std::string& text : texts) {
+        EXPECT_THAT(finished.err, testing::HasSubstr(text));
+    }
 }
 
 std::string text_of(const fs::path& path) {
@@ -148,7 +158,7 @@ Finished Started::wait(std::chrono::seconds limit) {
     return finished;
 }
 
-bool Started::says(const std::string& text, std::chrono::seconds limit) {
+bool Started::prints(const std::string& text, std::chrono::seconds limit) {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (std::chrono::steady_clock::now() < end) {
         const bool over = ended(std::chrono::milliseconds(10));

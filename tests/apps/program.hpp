@@ -18,6 +18,14 @@ struct Finished {
     [[nodiscard]] bool one_line_of_error() const;
 };
 
+/// Expects one line on standard error that has all of the texts.
+void expect_line_of_error(const Finished& finished, int exit_code,
+                          const std::vector<std::string>& texts);
+/// As bad input.
+inline void expect_refused(const Finished& finished, const std::vector<std::string>& texts) {
+    expect_line_of_error(finished, 2, texts);
+}
+
 /// limpet in the background; killed when this goes while it still runs.
 class Started {
 public:
@@ -30,9 +38,9 @@ public:
     void signal(int number) const;
     /// @return exit code -1 when it does not end in time, or by a signal
     [[nodiscard]] Finished wait(std::chrono::seconds limit);
-    /// @return whether its standard output comes to hold the text, before it ends and in time
-    [[nodiscard]] bool says(const std::string& text, std::chrono::seconds limit);
-    /// What it has said so far.
+    /// @return whether it prints the text before it ends and in time
+    [[nodiscard]] bool prints(const std::string& text, std::chrono::seconds limit);
+    /// Its standard output so far.
     [[nodiscard]] std::string output() const;
 
 private:
@@ -46,7 +54,7 @@ private:
     int exit_code_ = -1;
 };
 
-/// A folder of its own for one test, gone with it.
+/// A folder for one test, removed at its end.
 class Bench {
 public:
     Bench();
@@ -54,7 +62,7 @@ public:
     Bench(const Bench&) = delete;
     Bench& operator=(const Bench&) = delete;
 
-    /// Runs limpet in the folder. Arguments are taken as they are, no shell looks at them.
+    /// Runs limpet in the folder, without a shell.
     [[nodiscard]] Finished run(const std::vector<std::string>& arguments) const;
     /// Runs limpet in another folder.
     [[nodiscard]] Finished run_in(const std::filesystem::path& folder,
@@ -69,7 +77,7 @@ private:
     std::filesystem::path folder_;
 };
 
-/// What limpet says to a person at a terminal so wide.
+/// What limpet prints at a terminal so wide.
 [[nodiscard]] std::string on_terminal(std::vector<std::string> arguments, unsigned short columns);
 
 [[nodiscard]] std::string text_of(const std::filesystem::path& path);

@@ -56,6 +56,9 @@ TEST(Px4ParamsVerb, RefusesInOneLineAndWritesNothing) {
         {"px4-params", "missing.yaml"},
         {"px4-params", "perching_uav", "--target", "moon"},
         {"px4-params", "perching_uav", "--airframe-id", "4001"},
+        {"px4-params", "perching_uav", "--airframe-id", "0"},
+        {"px4-params", "perching_uav", "--px4", "nowhere"},
+        {"px4-params", "perching_uav", "--px4", "nowhere", "--px4-version", "main"},
         {"px4-params", "perching_uav", "--mocap", "--gps"},
         {"px4-params", "perching_uav", "--set", "autopilot.MPC_THR_HOVER=0.9"},
         {"px4-params", "perching_uav", "--out", "/proc/nowhere"},
@@ -66,6 +69,8 @@ TEST(Px4ParamsVerb, RefusesInOneLineAndWritesNothing) {
         EXPECT_TRUE(done.one_line_of_error()) << done.err;
         EXPECT_EQ(done.out, "");
     }
+    EXPECT_THAT(bench.run({"px4-params", "perching_ua"}).err,
+                HasSubstr("no such vehicle or scenario (did you mean perching_uav?)"));
     EXPECT_THAT(bench.files(), ElementsAre());
     EXPECT_THAT(
         bench.run({"px4-params", "perching_uav", "--set", "autopilot.MPC_THR_HOVER=0.9"}).err,

@@ -28,13 +28,13 @@ TEST(RotorVerb, JsonHoldsEveryRowAndWhatWasChosen) {
     const Finished run = bench.run(
         {"rotor", "p.txt", "--diameter", "25cm", "--density", "1.2", "--rpm", "5000", "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const auto said = nlohmann::json::parse(run.out);
-    EXPECT_EQ(said["rows"].size(), 2U);
-    EXPECT_NEAR(said["diameter_m"].get<double>(), 0.25, 1e-15);
+    const auto printed = nlohmann::json::parse(run.out);
+    EXPECT_EQ(printed["rows"].size(), 2U);
+    EXPECT_NEAR(printed["diameter_m"].get<double>(), 0.25, 1e-15);
     // half-way: C_T 0.11 in eq. (3); C_P 0.045 in eq. (4)
-    EXPECT_NEAR(said["rotor"]["motor_constant_kg_m"].get<double>(), 1.1 * 1.187358e-5, 1e-11);
-    EXPECT_NEAR(said["rotor"]["moment_constant_m"].get<double>(), 0.0162772, 1e-7);
-    EXPECT_EQ(said["how"], "at 5000 rpm");
+    EXPECT_NEAR(printed["rotor"]["motor_constant_kg_m"].get<double>(), 1.1 * 1.187358e-5, 1e-11);
+    EXPECT_NEAR(printed["rotor"]["moment_constant_m"].get<double>(), 0.0162772, 1e-7);
+    EXPECT_EQ(printed["how"], "at 5000 rpm");
 }
 
 TEST(RotorVerb, RefusesInOneLine) {
@@ -44,7 +44,7 @@ TEST(RotorVerb, RefusesInOneLine) {
     (void)bench.write("empty.txt", "");
     struct Case {
         std::vector<std::string> arguments;
-        const char* said;
+        const char* error;
     };
     for (const Case& c :
          {Case{{"nowhere.txt", "--diameter", "12in"}, "nowhere.txt"},
@@ -64,9 +64,9 @@ TEST(RotorVerb, RefusesInOneLine) {
         std::vector<std::string> arguments = c.arguments;
         arguments.insert(arguments.begin(), "rotor");
         const Finished run = bench.run(arguments);
-        EXPECT_EQ(run.exit_code, 2) << c.said;
+        EXPECT_EQ(run.exit_code, 2) << c.error;
         EXPECT_TRUE(run.one_line_of_error()) << run.err;
-        EXPECT_THAT(run.err, HasSubstr(c.said));
+        EXPECT_THAT(run.err, HasSubstr(c.error));
         EXPECT_EQ(run.out, "");
     }
 }

@@ -32,6 +32,28 @@ TEST(StandInVerb, FliesWhatAPx4Would) {
     EXPECT_THAT(end.out, HasSubstr("answers"));
 }
 
+/// Of a PX4 that was started, console and logs stay next to the recording, also where no flight
+/// came of it.
+TEST(StandInVerb, WhatAStartedPx4PrintedIsKeptAndSummed) {
+    const Bench bench;
+    const std::string start =
+        "echo 'ERROR [param] Parameter GONE not found.'; mkdir {folder}/log;"
+        "echo x > {folder}/log/1.ulg; exec " +
+        std::string(LIMPET_PROGRAM) + " stand-in hover --instance {instance}";
+    const Finished flight = bench.run({"fly", "hover", "--autopilot", "px4", "--px4", start,
+                                       "--instance", "9", "--wait", "30", "--no-figures"});
+    EXPECT_EQ(flight.exit_code, 0) << flight.err;
+    EXPECT_THAT(flight.out, HasSubstr("px4.log    1 error\n"));
+    EXPECT_THAT(flight.out, HasSubstr("ERROR [param] Parameter GONE not found."));
+    EXPECT_TRUE(std::filesystem::exists(bench.folder() / "out/hover/px4.ulg"));
+
+    const Finished none =
+        bench.run({"fly", "hover", "--autopilot", "px4", "--px4", "echo port in use; sleep 60",
+                   "--instance", "9", "--wait", "1", "--out", "none"});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_EQ(text_of(bench.folder() / "none/px4.log"), "port in use\n");
+}
+
 TEST(StandInVerb, WhoAnsweredIsToldAndWhereAPx4IsAskedForItWillNotDo) {
     for (const bool only_px4 : {false, true}) {
         const Bench bench;
@@ -49,7 +71,7 @@ TEST(StandInVerb, WhoAnsweredIsToldAndWhereAPx4IsAskedForItWillNotDo) {
         const Finished flight = bench.run(words);
         EXPECT_EQ(flight.exit_code, only_px4 ? 2 : 0) << flight.err;
         if (only_px4) {
-            EXPECT_THAT(flight.err, HasSubstr("the stand-in answered, and a PX4 is asked for"));
+            EXPECT_THAT(flight.err, HasSubstr("the stand-in answered, and a PX4 is required"));
             continue;
         }
         EXPECT_THAT(flight.err, HasSubstr("the stand-in, as PX4 1.15.1, system 4"));
@@ -73,7 +95,7 @@ TEST(StandInVerb, OneThatADebuggerStopsIsWaitedForWhereThatIsAsked) {
         Started flight(bench.folder(), "flight",
                        {"fly", "hover", "--autopilot", "px4", "--hil", hil, "--offboard", offboard,
                         "--patience", patience, "--speed", "4", "--wait", "30"});
-        ASSERT_TRUE(flight.says("armed", std::chrono::seconds(20))) << flight.output();
+        ASSERT_TRUE(flight.prints("armed", std::chrono::seconds(20))) << flight.output();
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
         stand_in.signal(SIGSTOP);
         std::this_thread::sleep_for(std::chrono::milliseconds(1500));
@@ -109,7 +131,7 @@ TEST(StandInVerb, WhoWaitsForItSaysHowToStartItAndLeavesNothingOnCtrlC) {
             words.insert(words.end(), {"--sensors", "udp:" + free_port(SOCK_DGRAM)});
         }
         Started waiting(bench.folder(), "waiting", words);
-        ASSERT_TRUE(waiting.says("limpet stand-in hover --hil " + hil, std::chrono::seconds(20)))
+        ASSERT_TRUE(waiting.prints("limpet stand-in hover --hil " + hil, std::chrono::seconds(20)))
             << waiting.output();
         waiting.signal(SIGINT);
         const Finished end = waiting.wait(std::chrono::seconds(20));
@@ -125,7 +147,7 @@ TEST(StandInVerb, CtrlCEndsTheWaitForIt) {
     Started fly(bench.folder(), "fly",
                 {"fly", "perch_concrete", "--autopilot", "px4", "--hil",
                  "tcp:" + free_port(SOCK_STREAM), "--offboard", "udp:" + free_port(SOCK_DGRAM)});
-    ASSERT_TRUE(fly.says("waiting for PX4", std::chrono::seconds(30)));
+    ASSERT_TRUE(fly.prints("waiting for PX4", std::chrono::seconds(30)));
     fly.signal(SIGINT);
     const Finished end = fly.wait(std::chrono::seconds(30));
     EXPECT_EQ(end.exit_code, 130);
@@ -143,7 +165,7 @@ TEST(StandInVerb, CtrlCBeforeTheFlightKeepsTheWireThatLedThere) {
     Started flight(bench.folder(), "flight",
                    {"fly", "hover", "--autopilot", "px4", "--hil", hil, "--offboard", offboard,
                     "--record-wire", "--speed", "0.1", "--out", "o"});
-    ASSERT_TRUE(flight.says("the autopilot boots", std::chrono::seconds(20))) << flight.output();
+    ASSERT_TRUE(flight.prints("the autopilot boots", std::chrono::seconds(20))) << flight.output();
     flight.signal(SIGINT);
     const Finished end = flight.wait(std::chrono::seconds(20));
     EXPECT_EQ(end.exit_code, 130) << end.err;

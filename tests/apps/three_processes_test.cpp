@@ -36,7 +36,7 @@ struct OverDevices : testing::Test {
 
     void write_companion(const std::string& sources) const {
         (void)bench.write(
-            "beside.yaml",
+            "companion.yaml",
             "description: three processes\n"
             "vehicle: perching_uav\n"
             "mission: perch_and_take_off\n"
@@ -59,8 +59,8 @@ struct OverDevices : testing::Test {
     /// @param fault  of the scenario's table; empty: none
     void start(const std::string& speed, const std::string& fault = "") {
         std::vector<std::string> words = {
-            "sim-io", "perch_metal_valve", "beside.yaml", "--hil",    ports.hil, "--speed",
-            speed,    "--no-figures",      "--expect",    "released", "--out",   "sim"};
+            "sim-io", "perch_metal_valve", "companion.yaml", "--hil",    ports.hil, "--speed",
+            speed,    "--no-figures",      "--expect",       "released", "--out",   "sim"};
         if (!fault.empty()) {
             words.insert(words.end(), {"--set", "faults={" + fault + "}"});
         }
@@ -70,10 +70,11 @@ struct OverDevices : testing::Test {
             std::vector<std::string>{"stand-in", "perch_metal_valve", "--hil", ports.hil,
                                      "--onboard", ports.onboard, "--peer", ports.autopilot});
         // its serial ports are there once it waits for the autopilot
-        EXPECT_TRUE(sim_io->says("waiting for PX4", 30s)) << sim_io->output();
-        companion.emplace(bench.folder(), "companion",
-                          std::vector<std::string>{"companion", "beside.yaml", "--speed", speed,
-                                                   "--expect", "released", "--out", "beside"});
+        EXPECT_TRUE(sim_io->prints("waiting for PX4", 30s)) << sim_io->output();
+        companion.emplace(
+            bench.folder(), "companion",
+            std::vector<std::string>{"companion", "companion.yaml", "--speed", speed, "--expect",
+                                     "released", "--out", "companion_out"});
     }
 
     void expect_released(std::chrono::seconds limit) {
@@ -81,7 +82,7 @@ struct OverDevices : testing::Test {
         const Finished guided = companion->wait(30s);
         EXPECT_EQ(flown.exit_code, 0) << flown.out << flown.err << guided.out << guided.err;
         EXPECT_EQ(guided.exit_code, 0) << guided.out << guided.err;
-        // The simulator's recording holds what guidance told and what the cup did, in order.
+        // The simulator's recording holds what guidance reported and what the cup did, in order.
         const record::Recording recording =
             record::read_recording(bench.folder() / "sim" / "flight.mcap");
         std::vector<std::string> wanted = {"approach_started", "attached",  "perched",
@@ -197,7 +198,7 @@ TEST_F(OverDevices, CtrlCLeavesTheSimulatorsRecordingWhole) {
         "  source: mavlink\n"
         "  valve: false\n");
     start("2");
-    ASSERT_TRUE(sim_io->says("approach_started", 60s));
+    ASSERT_TRUE(sim_io->prints("approach_started", 60s));
     sim_io->signal(SIGINT);
     const Finished flown = sim_io->wait(30s);
     EXPECT_EQ(flown.exit_code, 130) << flown.out << flown.err;

@@ -161,7 +161,7 @@ TEST(Verbs, CheckFindsByName) {
     EXPECT_EQ(bench.run({"check", "nowhere.csv"}).exit_code, 2);
 }
 
-/// Of data of one's own, in which a name stands for two things.
+/// With data in which a name stands for two things.
 TEST(Verbs, CheckAsksWhichOfTwo) {
     const Bench bench;
     std::filesystem::create_directories(bench.folder() / "scenarios");
@@ -175,7 +175,7 @@ TEST(Verbs, CheckAsksWhichOfTwo) {
     ::unsetenv("LIMPET_DATA");
     EXPECT_EQ(two.exit_code, 2);
     EXPECT_TRUE(two.one_line_of_error()) << two.err;
-    EXPECT_THAT(two.err, HasSubstr("\"mine\": is a scenario and a vehicle; say "));
+    EXPECT_THAT(two.err, HasSubstr("\"mine\": is a scenario and a vehicle; give "));
     EXPECT_EQ(one.exit_code, 0) << one.err;
 }
 
@@ -366,17 +366,17 @@ TEST(Verbs, ExportsAWorldWithWhatStandsBesideIt) {
     EXPECT_TRUE(bench.files().empty());
     ASSERT_EQ(bench
                   .run({"export", "perching_uav", "--format", "world", "--wall", "metal",
-                        "--camera", "frames", "--out", "room.world"})
+                        "--camera", "frames", "--out", "wall.world"})
                   .exit_code,
               0);
     EXPECT_THAT(bench.files(),
-                testing::IsSupersetOf({"room.world", "materials/scripts/showroom.material",
+                testing::IsSupersetOf({"wall.world", "materials/scripts/showroom.material",
                                        "materials/textures/limpet_steel.tga"}));
-    const std::string room = text_of(bench.folder() / "room.world");
-    EXPECT_THAT(room, HasSubstr("wall_metal"));
-    EXPECT_THAT(room, Not(HasSubstr("wall_cinder_block")));
-    EXPECT_THAT(room, HasSubstr((bench.folder() / "frames").string()));
-    // A file of one's own is named so that a gzserver finds it from anywhere.
+    const std::string world = text_of(bench.folder() / "wall.world");
+    EXPECT_THAT(world, HasSubstr("wall_metal"));
+    EXPECT_THAT(world, Not(HasSubstr("wall_cinder_block")));
+    EXPECT_THAT(world, HasSubstr((bench.folder() / "frames").string()));
+    // A user's file is named so that a gzserver finds it from anywhere.
     (void)bench.write("mine.yaml", "mission: hover\nvehicle: perching_uav\n");
     EXPECT_THAT(bench.run({"export", "mine.yaml", "--format", "world"}).out,
                 HasSubstr("<scenario>" + (bench.folder() / "mine.yaml").string()));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/autopilot/aiding.hpp"
-
 #include <gtest/gtest.h>
 
 #include "defaults.hpp"
+#include "limpet/autopilot/estimator.hpp"
 #include "limpet/core/random.hpp"
 
 namespace limpet::autopilot {

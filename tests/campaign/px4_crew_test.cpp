@@ -82,7 +82,10 @@ TEST_F(CampaignOnPx4, InterruptedItLeavesNoneRunningAndGoesOn) {
         running.signal(SIGINT);
         EXPECT_EQ(running.wait(), 130) << text_of(bench_.folder() / "log");
     }
-    EXPECT_THAT(text_of(bench_.folder() / "log"), HasSubstr("--autopilot px4 --resume"));
+    const std::string log = text_of(bench_.folder() / "log");
+    EXPECT_THAT(log, HasSubstr("--autopilot px4 --px4 "));
+    EXPECT_THAT(log, HasSubstr("stand-in hover --instance {instance}"));
+    EXPECT_THAT(log, HasSubstr(" --instances 2 --instance 6 --wait 30 --resume"));
     std::istringstream started(text_of(mark));
     int count = 0;
     for (pid_t pid = 0; started >> pid; ++count) {
@@ -96,7 +99,7 @@ TEST_F(CampaignOnPx4, WhatDoesNotFlyIsARowAndWhatDoesNotStartEndsIt) {
     const Finished other = bench_.run(on_px4(kAmiss, stand_in(), {"--only-px4"}));
     EXPECT_EQ(other.exit_code, 0) << other.err;
     EXPECT_THAT(other.out, HasSubstr("no_flight"));
-    EXPECT_THAT(other.out, HasSubstr("the stand-in answered, and a PX4 is asked for"));
+    EXPECT_THAT(other.out, HasSubstr("the stand-in answered, and a PX4 is required"));
 
     for (const auto& [start, told] : std::map<std::string, std::string>{
              {"echo out of order >&2; exit 3", "ended by itself, its last line: out of order"},

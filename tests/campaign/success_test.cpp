@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/success.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "campaigns.hpp"
-#include "limpet/campaign/cells_page.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "limpet/causes/cause_places.hpp"
 #include "limpet/core/errors.hpp"
 
 namespace limpet::causes {
@@ -108,11 +107,11 @@ TEST(Causes, SyntheticTruthsAreRecovered) {
         };
         const double metal = shown(kMetalWait_s, size.metal_scatter);
         const double concrete = shown(kConcreteWait_s, size.concrete_scatter);
-        const SwingSaid said{.metal_from_deg = metal / 1.1,
-                             .metal_to_deg = metal * 1.1,
-                             .concrete_from_deg = concrete / 1.1,
-                             .concrete_to_deg = concrete * 1.1,
-                             .simulated_to_deg = 1e9};
+        const SwingStatement said{.metal_from_deg = metal / 1.1,
+                                  .metal_to_deg = metal * 1.1,
+                                  .concrete_from_deg = concrete / 1.1,
+                                  .concrete_to_deg = concrete * 1.1,
+                                  .simulated_to_deg = 1e9};
         const CausePosterior posterior = weigh(prior, size, said);
         const auto of = [](const CauseDraw& draw) { return draw.swing.growth_1_s; };
         ++asked;

@@ -52,6 +52,22 @@ TEST(Companion, SendsPosesOnAtMostAtTheirRate) {
     EXPECT_NEAR(all.stage.autopilot.poses, 500, 5);
 }
 
+/// An origin that comes after the poses would move what they gave.
+TEST(Companion, SendsNoPoseBeforeTheAutopilotHasItsOrigin) {
+    Rehearsal r({"limits.wait_limit_s=60"});
+    r.stage.has_origin = false;
+    r.run(4.0);
+    EXPECT_EQ(r.stage.autopilot.poses, 0);
+    EXPECT_GE(r.stage.autopilot.origins, 1);
+    EXPECT_EQ(r.stage.autopilot.arms, 0);
+    r.stage.has_origin = true;
+    r.run(2.0);
+    EXPECT_GT(r.stage.autopilot.poses, 40);
+    const int given = r.stage.autopilot.origins;
+    r.run(5.0);
+    EXPECT_EQ(r.stage.autopilot.origins, given);
+}
+
 TEST(Companion, NamesWhatIsMissingAndGivesUpInTime) {
     Rehearsal r({"limits.wait_limit_s=10"});
     r.stage.puppet.force_works = false;

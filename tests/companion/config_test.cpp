@@ -201,7 +201,7 @@ TEST(CompanionConfig, TheLoopsPriorityCanBeTurnedAndTurnedOff) {
         const std::vector<std::string> lines = describe(config);
         return std::find(lines.begin(), lines.end(), line) != lines.end();
     };
-    EXPECT_TRUE(describes(load(kGood), "loop        asks for SCHED_FIFO 20 and locked memory"));
+    EXPECT_TRUE(describes(load(kGood), "loop        requests SCHED_FIFO 20 and locked memory"));
     EXPECT_TRUE(describes(load(kGood + "loop: {real_time_priority: 0}\n"),
                           "loop        at ordinary priority, as its file wants"));
 }

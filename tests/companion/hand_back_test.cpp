@@ -143,7 +143,7 @@ TEST(HandBack, ATickThatIsALittleLateIsCountedAlone) {
     r.tick();
     EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
     EXPECT_EQ(r.result().late_ticks, 1U);
-    EXPECT_DOUBLE_EQ(r.result().lateness.worst_s(), 0.29);
+    EXPECT_DOUBLE_EQ(r.result().lateness.largest_s(), 0.29);
 }
 
 TEST(HandBack, WhereTheOperatorTakesTheModeNothingIsAskedForAnyMore) {

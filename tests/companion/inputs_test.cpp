@@ -6,7 +6,7 @@
 #include <deque>
 #include <span>
 
-#include "limpet/companion/mechanism_out.hpp"
+#include "limpet/companion/wires.hpp"
 #include "limpet/devices/natnet.hpp"
 #include "limpet/mavlink/translate.hpp"
 

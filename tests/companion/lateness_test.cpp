@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/companion/lateness.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "limpet/companion/companion.hpp"
 #include "tests/support/allocations.hpp"
 
 namespace limpet::companion {
@@ -17,7 +16,7 @@ TEST(Lateness, OfNoTickIsNone) {
     const Lateness none;
     EXPECT_EQ(none.count(), 0U);
     EXPECT_EQ(none.quantile_s(0.5), 0.0);
-    EXPECT_EQ(none.worst_s(), 0.0);
+    EXPECT_EQ(none.largest_s(), 0.0);
 }
 
 TEST(Lateness, IsTheSortedTicksToASixteenth) {
@@ -35,7 +34,7 @@ TEST(Lateness, IsTheSortedTicksToASixteenth) {
         EXPECT_GE(lateness.quantile_s(share), all[rank]) << share;
         EXPECT_LE(lateness.quantile_s(share), all[rank] * (1.0 + 1.0 / 16.0) + 1e-6) << share;
     }
-    EXPECT_EQ(lateness.worst_s(), all.back());
+    EXPECT_EQ(lateness.largest_s(), all.back());
     EXPECT_EQ(lateness.quantile_s(1.0), all.back()) << "never beyond the worst";
     EXPECT_EQ(lateness.count(), 20'000U);
 }
@@ -59,8 +58,8 @@ TEST(Lateness, TakesWhatNoLoopHas) {
     lateness.add(1e9);
     EXPECT_EQ(lateness.count(), 2U);
     EXPECT_EQ(lateness.quantile_s(0.5), 1e-6);
-    EXPECT_EQ(lateness.worst_s(), 1e9);
-    EXPECT_NEAR(lateness.quantile_s(1.0), 1073.7, 0.1);
+    EXPECT_EQ(lateness.largest_s(), 1e9);
+    EXPECT_EQ(lateness.quantile_s(1.0), 1e9);
 }
 
 TEST(Lateness, AllocatesNothing) {
@@ -79,7 +78,7 @@ TEST(Lateness, IsSaidInOneLine) {
         lateness.add(50.5e-6);
     }
     lateness.add(0.98);
-    EXPECT_EQ(text_of(lateness),
+    EXPECT_EQ(lateness_text(lateness),
               "late by 0.05 ms (median), 0.05 ms (99 %), 0.05 ms (99.9 %), 980.0 ms (worst)");
 }
 

@@ -20,7 +20,7 @@ using testing::Not;
 TEST(RealTime, SaysWhatItGot) {
     EXPECT_EQ(text_of({.priority = 20}), "real time: SCHED_FIFO 20, memory locked");
     EXPECT_EQ(text_of({.priority = 0}),
-              "real time: not asked for (loop.real_time_priority is 0); a busy machine may hold it "
+              "real time: not requested (loop.real_time_priority is 0); a busy machine may hold it "
               "up");
 }
 
@@ -31,7 +31,7 @@ TEST(RealTime, SaysWhatItDidNotGetAndWhatToDoAboutIt) {
                        .memory_limit_bytes = 8 << 20}),
               "real time: refused SCHED_FIFO 20 (Operation not permitted), locked memory (limit "
               "8192 kB); flies on at ordinary priority, where a busy machine may hold it up: give "
-              "it the limits rtprio 20, memlock unlimited (docs/companion.md), or ask for neither "
+              "it the limits rtprio 20, memlock unlimited (docs/companion.md), or request neither "
               "with loop.real_time_priority=0");
     const std::string memory = text_of({.priority = 5, .memory_error = ENOMEM});
     EXPECT_THAT(memory, HasSubstr("refused locked memory (Cannot allocate memory)"));

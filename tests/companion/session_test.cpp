@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "asked_session.hpp"
-#include "limpet/companion/mechanism_out.hpp"
+#include "limpet/companion/wires.hpp"
 
 namespace limpet::companion {
 namespace {

@@ -20,6 +20,7 @@ namespace limpet::companion {
 struct HeardByAutopilot {
     int set_points = 0;
     int poses = 0;
+    int origins = 0;  ///< given to it
     int heartbeats = 0;
     int holds = 0;      ///< AUTO.LOITER asked for
     int offboards = 0;  ///< OFFBOARD asked for
@@ -69,6 +70,7 @@ public:
     bool mechanism_answers = true;
     bool obeys_mode = true;
     bool obeys_arming = true;
+    bool has_origin = true;  ///< and tells it when it is asked
     Vector3 motion_capture_off_m = Vector3::Zero();
     double motion_capture_turned_rad = 0.0;
     Vector3 estimate_drift_m_s = Vector3::Zero();  ///< of tracker and estimate, not of the vehicle
@@ -131,6 +133,8 @@ private:
             obey(*command);
         } else if (mavlink::decode<mavlink::Odometry>(frame)) {
             ++autopilot.poses;
+        } else if (mavlink::decode<mavlink::SetGpsGlobalOrigin>(frame)) {
+            ++autopilot.origins;
         } else if (mavlink::decode<mavlink::Heartbeat>(frame)) {
             ++autopilot.heartbeats;
         }
@@ -149,6 +153,9 @@ private:
                 armed = command.param1 > 0.5F;
                 landed_state = armed ? 2 : landed_state;
             }
+        } else if (command.command == mavlink::MavCmd::request_message && has_origin &&
+                   command.param1 == static_cast<float>(mavlink::GpsGlobalOrigin::kId)) {
+            (void)autopilot_.send(mavlink::GpsGlobalOrigin{});
         }
     }
 

@@ -11,10 +11,7 @@
 #include "../support/files.hpp"
 #include "../support/png.hpp"
 #include "compare_flights.hpp"
-#include "limpet/compare/figures.hpp"
-#include "limpet/compare/limits.hpp"
-#include "limpet/compare/page.hpp"
-#include "limpet/compare/text.hpp"
+#include "limpet/compare/report.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/colours.hpp"
 
@@ -379,9 +376,11 @@ TEST(CompareFigures, StatesHaveTheirNames) {
     }
     const std::string page = comparison_html(held, {}, pictures.files, folder.path(), "limpet");
     for (const char* text : {"first against second", "id=\"picture-cup\"", "cup_phase",
-                             "data:image/", "<h3 id=\"events-1\">"}) {
+                             "data:image/", "<h3 id=\"events-1\">", "since the last s"}) {
         EXPECT_THAT(page, HasSubstr(text));
     }
+    EXPECT_THAT(page, testing::ContainsRegex("number-cell\">[0-9]+[.][0-9][0-9][0-9]<"))
+        << "times to a millisecond, as numbers";
     const std::atomic<bool> stop = true;
     EXPECT_THROW((void)draw_comparison(first, others, held, folder.path() / "new", {.stop = &stop}),
                  Interrupted);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/compare/contact.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "compare_flights.hpp"
-#include "limpet/compare/rest.hpp"
+#include "limpet/compare/compare.hpp"
 #include "limpet/models/model_writer.hpp"
 
 namespace limpet::compare {

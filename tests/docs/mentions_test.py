@@ -104,6 +104,24 @@ class Mentions(unittest.TestCase):
                         if part not in ("suction_cup", "X", "MODULE"):  # of adapters/gazebo/test; patterns
                             self.assertTrue(any(re.search(part, name) for name in there), "no such test")
 
+    def test_tests_of_modules_that_are_named_exist(self):
+        """`module.Suite`, `module.Suite.Test`; a name may end in ... or have a * within."""
+        listed = subprocess.run(["ctest", "--test-dir", BUILD, "-N"], capture_output=True, text=True, check=True).stdout
+        if "_NOT_BUILT" in listed:
+            self.skipTest("not all tests are built")
+        there = re.findall(r"Test +#\d+: (\S+)", listed)
+        modules = {name.split(".")[0] for name in there}
+        checked = 0
+        for page in PAGES:
+            for word in re.findall(r"`([a-z]\w*(?:\.[A-Z*][\w*]*){1,2})(?:\.\.\.)?`", page.read_text()):
+                if word.split(".")[0] not in modules:
+                    continue
+                checked += 1
+                with self.subTest(f"{page.relative_to(ROOT)}: {word}"):
+                    pattern = re.escape(word).replace(r"\*", r"\w*")
+                    self.assertTrue(any(re.match(pattern, name) for name in there), "no such test")
+        self.assertGreater(checked, 50)
+
     def test_cells_of_tables_hide_their_bars(self):
         for page in PAGES:
             for number, line in enumerate(re.sub(r"```.*?```", lambda fence: "\n" * fence[0].count("\n"), page.read_text(),

@@ -35,7 +35,7 @@ def look_at(browser, program, site):
             for page in pages:
                 tab = browser.Tab(process, page.as_uri())
                 report = browser.look(tab, process, page.as_uri())
-                own = f"asks for {site.as_uri()}/"  # style, scripts and pictures of the site are its own
+                own = f"requests {site.as_uri()}/"  # style, scripts and pictures of the site are its own
                 wrong += [f"{page.relative_to(site)}: {problem}" for problem in report["problems"] if not problem.startswith(own)]
                 for target in process.ask("Target.getTargets")["targetInfos"]:
                     if target["url"] == page.as_uri():

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/draw/layout.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "limpet/core/random.hpp"
+#include "limpet/draw/sketch.hpp"
 
 namespace limpet::draw {
 namespace {

@@ -9,7 +9,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return limpet::fuzz::read_or_refuse([&] {
         const auto request = limpet::lab::object_in({reinterpret_cast<const char*>(data), size});
-        const limpet::lab::Asked asked = limpet::lab::asked_in(request, "hover");
+        const limpet::lab::FlightRequest asked = limpet::lab::flight_request_in(request, "hover");
         auto tree = limpet::scenario::parse_yaml("vehicle: perching_uav\n", "x.yaml");
         for (const std::string& change : asked.changes) {
             set_override(tree, change);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "limpet/ulog/ulog.hpp"
+
 #include "as_file.hpp"
-#include "limpet/ulog/ulog_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return limpet::fuzz::read_or_refuse([&] {

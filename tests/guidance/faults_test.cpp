@@ -310,6 +310,20 @@ TEST(Wind, TooMuchOfItIsDeclined) {
     EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
 }
 
+TEST(Wind, AlongTheWallItTakesLessOfIt) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::aligning));
+    const Vector3 right_W(-puppet.memory.wall.into_wall_W().y(),
+                          puppet.memory.wall.into_wall_W().x(), 0.0);
+    puppet.memory.wind.trim_W_m_s2 = kGravity_m_s2 * std::tan(radians(20.0)) * right_W;
+    puppet.memory.since_s = puppet.time_s - puppet.parameters.settle_s - 0.1;
+    puppet.tick();
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(puppet.memory.ending->reason.view(),
+              "too much wind along the wall: at rest it would tip over a leg");
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
+}
+
 TEST(Wind, BesideTheCupItLeansBackBeforeIt) {
     Puppet puppet;
     ASSERT_TRUE(puppet.run_to(PerchingState::releasing));

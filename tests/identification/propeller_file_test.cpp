@@ -78,6 +78,7 @@ TEST(PropellerFile, TakesWhatUiucFilesHold) {
     EXPECT_EQ(complaint("RPM,CT,CP\n3000,0.10,0.04\n5000, 0.11 ,0.045\n"), "");
     EXPECT_EQ(complaint("\"RPM\",\"CT\",\"CP\"\r\n\"3000\",\"0.10\",\"0.04\"\r\n"), "");
     EXPECT_EQ(complaint("rpm;ct;cp\n3000;0.10;0.04\n"), "");
+    EXPECT_EQ(complaint("rpm;ct;cp\n3000;0,10;0,04\n"), "") << "decimal commas, as in a log";
     EXPECT_EQ(complaint("# a remark\n\nCP RPM CT\n0.0366 1500 0.0933\n"), "");
 }
 

@@ -16,7 +16,7 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
-#include "limpet/ulog/ulog_writer.hpp"
+#include "limpet/ulog/ulog.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -199,7 +199,7 @@ TEST(VehicleFit, WhatALogCannotTellIsANote) {
     EXPECT_FALSE(fit.inertia_kg_m2[0] || fit.lag_up_s || fit.slider_stiffness_N_m);
     EXPECT_THAT(fit.notes,
                 testing::Contains(testing::HasSubstr("the log has 2 motors, the vehicle 4")));
-    EXPECT_THAT(fit.notes, testing::Contains(testing::HasSubstr("nothing tells the slider")));
+    EXPECT_THAT(fit.notes, testing::Contains(testing::HasSubstr("slider: the touch is too short")));
     EXPECT_TRUE(fit.pressure);
 }
 

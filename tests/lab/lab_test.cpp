@@ -343,7 +343,7 @@ TEST(SwingOf, WhatCannotBeIsALineAndTheLastMapStands) {
     EXPECT_THAT(refusal(up("autopilot.nothing", 2)), HasSubstr("is no number of the scenario"));
     std::string hover = up("autopilot.MC_PITCHRATE_I", 2);
     hover.insert(1, R"("scenario": "hover", )");
-    EXPECT_THAT(refusal(hover), HasSubstr("asks for a wall"));
+    EXPECT_THAT(refusal(hover), HasSubstr("needs a wall"));
     EXPECT_EQ(ended(swing)["id"], 1);
     // Two numbers that do not go together leave a hole, not a line.
     swing.begin(R"({"across": {"keys": ["vehicle.rotor.time_constant_up_s"], "from": 0.01,

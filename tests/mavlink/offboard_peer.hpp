@@ -20,6 +20,7 @@ struct Peer {
     std::uint32_t mode = 0;
     bool tells_pose = true;
     bool beats = true;
+    bool tells_origin = true;  ///< once it has been given one
 
     explicit Peer(const OffboardOptions& options = {}) : offboard(options) {}
 
@@ -55,6 +56,10 @@ struct Peer {
             }
             hear_all();
             offboard.update(wire.link, setpoint, time_s);
+            if (tells_origin && origins() > 0 && !offboard.report().has_origin) {
+                wire.say(GpsGlobalOrigin{});
+                hear_all();
+            }
         }
     }
     [[nodiscard]] std::vector<CommandLong> commands(std::uint16_t command) const {

@@ -298,8 +298,8 @@ TEST(Offboard, FramesOfOthersAreLeftAlone) {
 
 TEST(Offboard, AsksWhoItIsUntilItTellsAndNotForEver) {
     Peer silent;
-    silent.run(20.0);
-    EXPECT_THAT(silent.requests(AutopilotVersion::kId), SizeIs(5));
+    silent.run(60.0);
+    EXPECT_THAT(silent.requests(AutopilotVersion::kId), SizeIs(40));
     EXPECT_FALSE(silent.offboard.report().version);
     Peer peer;
     peer.run(0.5);

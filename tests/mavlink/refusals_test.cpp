@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/mavlink/refusals.hpp"
-
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include "limpet/mavlink/signing.hpp"
 #include "samples.hpp"
 
 namespace limpet::mavlink {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/mavlink/text_joiner.hpp"
-
 #include <gtest/gtest.h>
+
+#include "limpet/mavlink/offboard.hpp"
 
 namespace limpet::mavlink {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/dae_reader.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "limpet/meshes/readers.hpp"
 #include "meshes.hpp"
 
 namespace limpet::meshes {
@@ -63,9 +62,22 @@ TEST(DaeReader, TheFilesUnitAndAxesAreHeeded) {
         EXPECT_NEAR(volume(up_y), 1.0, 1e-12);
         expect_extent(up_y, {0, -3, 0}, {1, 0, 2});
     }
+    const Mesh blanks = read_dae_of("<unit meter=\" 1.0 \"/><up_axis>\n  Z_UP\n</up_axis>");
+    expect_extent(blanks, {0, 0, 0}, {1, 2, 3});
     const Mesh up_x = read_dae_of("<up_axis>X_UP</up_axis>");
     EXPECT_NEAR(volume(up_x), 1.0, 1e-12);
     expect_extent(up_x, {-2, -3, 0}, {0, 0, 1});
+}
+
+TEST(DaeReader, NothingIsLostBehindAComment) {
+    const Mesh mesh = read_as(
+        "a.dae",
+        replaced(
+            dae("<up_axis>Z_UP</up_axis>",
+                replaced(kDaeTriangles, "1 0 1", "<!-- the side --> <![CDATA[1]]> 0 1"), kDaeNode),
+            "1 0 0 0 2 0", "1<!-- x -->0 0 0 2 0"));
+    EXPECT_EQ(mesh.triangles.size(), 4U);
+    EXPECT_NEAR(volume(mesh), 1.0, 1e-12);
 }
 
 TEST(DaeReader, NodesPlaceTheirGeometriesOneInTheOther) {
@@ -131,7 +143,7 @@ TEST(DaeReader, RefusesWhatIsNoneWhereItStands) {
     EXPECT_THAT(with("3 2 3 3</p>", "3 2 3 -1</p>"), HasSubstr("a.dae:8: <p> \"-1\""));
     EXPECT_THAT(with("3 2 3 3</p>", "3 2 3</p>"), HasSubstr("a.dae:8: "));
     EXPECT_THAT(with("3 1 3 2 3 3</p>", "3 1 3 2</p>"), HasSubstr("a.dae:8: "));
-    EXPECT_THAT(with("0 0 3</float_array>", "0 0</float_array>"), HasSubstr("asks for more than"));
+    EXPECT_THAT(with("0 0 3</float_array>", "0 0</float_array>"), HasSubstr("needs more than"));
     EXPECT_THAT(with("0 0 3</float_array>", "0 0 x</float_array>"), HasSubstr("\"x\""));
     EXPECT_THAT(with("0 0 3</float_array>", "0 0 1e999</float_array>"), HasSubstr("point 4"));
     EXPECT_THAT(with("stride=\"3\"", "stride=\"2\""), HasSubstr("at least 3"));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/obj_reader.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "limpet/meshes/readers.hpp"
 #include "meshes.hpp"
 
 namespace limpet::meshes {
@@ -28,6 +27,7 @@ TEST(ObjReader, ABoxOfTrianglesAndQuadrilaterals) {
     EXPECT_NEAR(volume(box), 6.0, 1e-12);
     EXPECT_EQ(extent(box).second, Vector3(1, 2, 3));
     EXPECT_NEAR(volume(read_as("BOX.OBJ", kBox)), 6.0, 1e-12);
+    EXPECT_NEAR(volume(read_as("box.obj", std::string("\xEF\xBB\xBF") + kBox)), 6.0, 1e-12);
 }
 
 TEST(ObjReader, PointsThatNoFaceHasAreLeftOut) {
@@ -47,6 +47,7 @@ TEST(ObjReader, RefusesWhatIsNoneWhereItStands) {
     EXPECT_THAT(said(points + "f 1 2 -4\n"), HasSubstr("a.obj:4: "));
     EXPECT_THAT(said(points + "f 1 2 x\n"), HasSubstr("a.obj:4: "));
     EXPECT_THAT(said(points + "f 1 2 99999999999999999999\n"), HasSubstr("a.obj:4: "));
+    EXPECT_EQ(said("f 1 2 3\n" + points), "a.obj:1: f: a face must stand after its points");
     EXPECT_THAT(said(points + "f 1 2\n"), HasSubstr("a.obj:4: a face of 2 corners"));
     for (const char* bad : {"v 1 2", "v 1 2 nan", "v 1 2 0x10", "v 1 2 1e999", "v inf 0 0",
                             "v 1,5 2 3", "v 1 2 \\"}) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/ply_reader.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -8,6 +6,7 @@
 #include <array>
 #include <cstring>
 
+#include "limpet/meshes/readers.hpp"
 #include "meshes.hpp"
 
 namespace limpet::meshes {
@@ -61,7 +60,9 @@ std::string ply_bytes(bool big) {
 }
 
 TEST(PlyReader, TextAndBothOrdersOfBytesGiveTheSameBody) {
-    for (const std::string& bytes : {ply_text(), ply_bytes(false), ply_bytes(true)}) {
+    for (const std::string& bytes :
+         {ply_text(), ply_bytes(false), ply_bytes(true), "\xEF\xBB\xBF" + ply_text(),
+          "\xEF\xBB\xBF" + ply_bytes(true)}) {
         const Mesh mesh = read_as("a.ply", bytes);
         EXPECT_EQ(mesh.points.size(), 4U);
         EXPECT_EQ(mesh.triangles.size(), 4U);
@@ -94,7 +95,9 @@ TEST(PlyReader, RefusesWhatIsNoneWhereItStands) {
 }
 
 TEST(PlyReader, RefusesEveryBeginningOfAFile) {
-    for (const std::string& bytes : {ply_text(), ply_bytes(false), ply_bytes(true)}) {
+    for (const std::string& bytes :
+         {ply_text(), ply_bytes(false), ply_bytes(true), "\xEF\xBB\xBF" + ply_text(),
+          "\xEF\xBB\xBF" + ply_bytes(true)}) {
         for (std::size_t size = 0; size + 4 < bytes.size(); ++size) {
             EXPECT_NE(refusal_as("a.ply", bytes.substr(0, size)), "") << size;
         }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/stl_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/meshes/readers.hpp"
 #include "meshes.hpp"
 
 namespace limpet::meshes {
@@ -69,7 +68,12 @@ std::string ascii() {
 }
 
 TEST_F(StlReader, BinaryAndAsciiGiveTheSameBody) {
-    for (const std::string& bytes : {binary(), binary("solid that is not ASCII"), ascii()}) {
+    std::string capitals = ascii();
+    std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    for (const std::string& bytes :
+         {binary(), binary("solid that is not ASCII"), ascii(), "\n  " + capitals,
+          "\xEF\xBB\xBF" + ascii(), replaced(ascii(), "\n", "\\\r\n")}) {
         const Mesh mesh = read(bytes);
         EXPECT_EQ(mesh.triangles.size(), 4U);
         EXPECT_EQ(mesh.points.size(), 4U);     // corners are joined
@@ -82,6 +86,8 @@ TEST_F(StlReader, RefusesWhatIsNone) {
     EXPECT_THAT(error(binary().substr(0, 200)), HasSubstr("no STL"));
     EXPECT_THAT(error("solid empty\nendsolid empty\n"), HasSubstr("without a triangle"));
     EXPECT_THAT(error("solid x\nfacet\nvertex 1 2\n"), HasSubstr(":3: "));
+    EXPECT_THAT(error("solid x\nfacet\nvertex 1 2,5 3\n"), HasSubstr(":3: "));
+    EXPECT_THAT(error("solid x\nfacet\nvertex 1 2 nan\n"), HasSubstr(":3: "));
     EXPECT_THAT(error(ascii().substr(0, ascii().size() - 20)), HasSubstr("ends without"));
     EXPECT_THAT(error("solid x\nfacet\nvertex 1 2 3\nendfacet\n"), HasSubstr(":4: "));
     std::string bad = binary();

@@ -118,6 +118,11 @@ TEST_F(UrdfMeshes, APackageIsFoundByItsFolderItsManifestAndBesideTheFile) {
     EXPECT_THAT(error("filename=\"package://arm/none.obj\"", "src/arm/urdf/x.urdf"),
                 testing::AllOf(HasSubstr("x.urdf:3: mesh \"package://arm/none.obj\": "),
                                HasSubstr("src/arm/none.obj")));
+    put("src/cup/a cup.obj", kTriangle);
+    EXPECT_EQ(error("filename=\"package://cup/a%20cup.obj\"", "src/arm/urdf/x.urdf"), "");
+    EXPECT_EQ(error("filename=\"file://" + (folder_ / "src/cup/a%20cup.obj").string() + "\""), "");
+    put("urdf/100%25.obj", kTriangle);
+    EXPECT_EQ(error("filename=\"100%25.obj\""), "") << "a file of that very name";
     for (const char* odd :
          {"package://", "package:///", "package://arm", "package://arm/", "file://"}) {
         EXPECT_THAT(error(std::string("filename=\"") + odd + "\"", "src/arm/urdf/x.urdf"),
@@ -180,12 +185,30 @@ TEST(UrdfReader, XacroThatIsNotExpandedIsRefusedWhereItBegins) {
           "<link name=\"b\"><visual><xacro:if value=\"true\"/></visual></link>",
           "<link name=\"b\"><visual><geometry><mesh filename=\"$(find uav)/a.stl\"/></geometry>"
           "</visual></link>",
-          "<gazebo reference=\"${prefix}a\"/>"}) {
-        EXPECT_THAT(
-            urdf_refusal(head + link + inside + "</robot>"),
-            testing::AllOf(HasSubstr("x.urdf:3: "), HasSubstr("`xacro "), HasSubstr("> x.urdf`")))
+          "<gazebo reference=\"${prefix}a\"/>",
+          "<x:motor_arm xmlns:x=\"http://www.ros.org/wiki/xacro\"/>",
+          "<property name=\"mass\" value=\"0.4\"/>", "<macro name=\"arm\"/>",
+          "<include filename=\"arm.xacro\"/>"}) {
+        EXPECT_THAT(urdf_refusal(head + link + inside + "</robot>"),
+                    testing::AllOf(HasSubstr("x.urdf:3: "), HasSubstr("`xacro "),
+                                   HasSubstr("> x_expanded.urdf`")))  // not the file that is read
             << inside;
     }
+    EXPECT_EQ(urdf_refusal(head + link +
+                           "<gazebo><include><uri>model://a</uri></include></gazebo>"
+                           "<y:a xmlns:y=\"http://elsewhere\"/></robot>"),
+              "");
+}
+
+TEST(UrdfReader, AnInertialWithoutItsPartsIsRefusedWhereItStands) {
+    for (const char* part : {"<mass value=\"1\"/>", "<inertia ixx=\"1\"/>"}) {
+        EXPECT_THAT(urdf_refusal(std::string("<robot>\n<link name=\"a\">\n<inertial>") + part +
+                                 "</inertial></link></robot>"),
+                    HasSubstr("x.urdf:3: in"))
+            << part;
+    }
+    EXPECT_THAT(urdf_refusal("<robot>\n<link name=\"a\">\n<inertial/></link></robot>"),
+                HasSubstr("x.urdf:3: inertial: must have a <mass>"));
 }
 
 }  // namespace

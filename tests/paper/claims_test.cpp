@@ -137,13 +137,13 @@ TEST(Statements, HoldBothTables) {
     };
     ASSERT_EQ(printed.size(), 18U);
     for (const auto& [name, value] : printed) {
-        const auto [paper, tolerance] = study.said(name);
+        const auto [paper, tolerance] = study.stated(name);
         EXPECT_EQ(paper, value.first) << name;
         EXPECT_NEAR(tolerance, value.second, 1e-9 * paper) << name;
         const auto* of = find_by(study.statements, &PaperStatement::evidence, name);
         EXPECT_NEAR(paper - of->accepted.low, value.second, 1e-9 * paper) << name;
     }
-    EXPECT_THROW((void)study.said("press_metal.tau_3_s"), InputError);
+    EXPECT_THROW((void)study.stated("press_metal.tau_3_s"), InputError);
 }
 
 class StatementsFile : public testing::Test {

@@ -3,17 +3,19 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/px4/params.hpp"
 
 namespace limpet::px4 {
 namespace {
@@ -136,15 +138,23 @@ TEST(Px4Airframe, GpsTakesThePlaceOfMotionCapture) {
     EXPECT_EQ(value_of(airframe, "SYS_HAS_MAG"), 1.0);
 }
 
-/// A file of its own, gone with the test.
-class WrittenParams : public testing::Test {
-protected:
-    void TearDown() override { std::filesystem::remove(path_); }
-    std::string path_ = testing::TempDir() +
-                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".params";
-};
+/// Name and value of each line, as QGroundControl takes them
+std::map<std::string, std::string> read_back(const std::string& params) {
+    std::map<std::string, std::string> values;
+    std::istringstream lines(params);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string vehicle, component, name, value, type, excess;
+        if (line.front() != '#') {
+            EXPECT_TRUE(words >> vehicle >> component >> name >> value >> type) << line;
+            EXPECT_FALSE(words >> excess) << line;
+            EXPECT_TRUE(values.emplace(name, value).second) << name;
+        }
+    }
+    return values;
+}
 
-TEST_F(WrittenParams, LoadBackAsTheyWere) {
+TEST(WrittenParams, LoadBackAsTheyWere) {
     Px4Airframe airframe = perching_uav();
     // Away from every default, to PX4's precision of 32 bits.
     for (const auto& row : autopilot::autopilot_table()) {
@@ -155,16 +165,17 @@ TEST_F(WrittenParams, LoadBackAsTheyWere) {
             row.of(airframe.autopilot).set(low + (high - low) / 3.0);
         }
     }
-    std::ofstream(path_) << px4_params_text(airframe, px4_settings(airframe));
-    autopilot::AutopilotParameters loaded;
-    const std::vector<std::string> ignored = load_px4_params(path_, loaded);
-    EXPECT_THAT(ignored, testing::Contains("FD_FAIL_P"));
+    const auto written = read_back(px4_params_text(airframe, px4_settings(airframe)));
+    EXPECT_EQ(written.count("FD_FAIL_P"), 1U);
     int compared = 0;
     for (const auto& row : autopilot::autopilot_table()) {
         if (row.name.starts_with("MPC_") || row.name.starts_with("MC_") ||
             row.name.starts_with("IMU_")) {
-            EXPECT_EQ(static_cast<float>(row.get(loaded)),
-                      static_cast<float>(row.get(airframe.autopilot)))
+            // What is not written keeps its default, which is PX4's.
+            const auto value = written.find(std::string(row.name));
+            EXPECT_EQ(
+                value != written.end() ? std::stof(value->second) : static_cast<float>(row.get({})),
+                static_cast<float>(row.get(airframe.autopilot)))
                 << row.name;
             ++compared;
         }
@@ -203,6 +214,84 @@ TEST(Px4Files, AreNamedSoThatPx4FindsThem) {
     EXPECT_EQ(px4_airframe_file_name(airframe), "22001_limpet_perching_uav");
     airframe.name = "my uav v1.5; rm";  // PX4 skips names with a dot
     EXPECT_EQ(px4_airframe_file_name(airframe), "22001_limpet_my_uav_v1_5__rm");
+}
+
+/// PX4's main lost MPC_USE_HTE on 2026-02-19 and COM_ARM_SDCARD on 2026-04-30.
+TEST(Px4Settings, AreThoseThatThePx4Has) {
+    const auto names = [](const std::vector<Px4Setting>& settings) {
+        std::set<std::string> all;
+        for (const Px4Setting& setting : settings) {
+            all.insert(setting.name);
+        }
+        return all;
+    };
+    Px4Airframe airframe = perching_uav();
+    const std::set<std::string> released = names(px4_settings(airframe));
+    EXPECT_TRUE(released.contains("MPC_USE_HTE"));
+    EXPECT_TRUE(released.contains("COM_ARM_SDCARD"));
+    airframe.version = Px4Version::main;
+    const std::set<std::string> main = names(px4_settings(airframe));
+    EXPECT_EQ(main.size() + 2, released.size());
+    EXPECT_FALSE(main.contains("MPC_USE_HTE"));
+    EXPECT_TRUE(main.contains("HTE_THR_RANGE")) << "what takes its place";
+
+    Px4Facts known;
+    for (const std::string& name : main) {
+        known.emplace(name, *find_px4_fact(name));
+    }
+    airframe.version = Px4Version::released;
+    const Px4Fitted fit = fitted(px4_settings(airframe), known);
+    EXPECT_EQ(names(fit.settings), main);
+    EXPECT_EQ(fit.left_out, (std::vector<std::string>{"MPC_USE_HTE", "COM_ARM_SDCARD"}));
+    known.at("HTE_THR_RANGE").minimum = 0.05;
+    try {
+        (void)fitted(px4_settings(airframe), known);
+        FAIL() << "this PX4 allows less";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "HTE_THR_RANGE = 0.01: PX4 allows 0.05 .. 0.4");
+    }
+}
+
+TEST(Px4Facts, OfABuildAreReadFromItsOwnList) {
+    const std::filesystem::path build =
+        std::filesystem::temp_directory_path() / ("limpet_facts_" + std::to_string(getpid()));
+    std::filesystem::create_directories(build);
+    EXPECT_FALSE(px4_facts_of(build));
+    const auto write = [&](const std::string& text) {
+        std::ofstream(build / "parameters.json") << text;
+    };
+    write(R"({"parameters": [{"name": "A", "type": "Int32", "default": 2, "max": 3, "group": "x"},
+              {"name": "B", "type": "Float", "default": 0.5}], "version": 1})");
+    const auto facts = px4_facts_of(build);
+    ASSERT_TRUE(facts);
+    EXPECT_EQ(facts->size(), 2U);
+    EXPECT_EQ(facts->at("A").type, Px4Type::int32);
+    EXPECT_EQ(facts->at("A").maximum, 3.0);
+    EXPECT_EQ(facts->at("A").minimum, -std::numeric_limits<double>::infinity());
+    for (const char* text :
+         {"", "[]", "{\"parameters\": 3}", "{\"parameters\": [{\"name\": 1}]}"}) {
+        write(text);
+        EXPECT_THROW((void)px4_facts_of(build), InputError) << text;
+    }
+    std::filesystem::remove_all(build);
+}
+
+/// PX4 takes the last script of a number: with one number for all it flew another vehicle's.
+TEST(Px4Files, EachVehicleHasANumberOfItsOwn) {
+    std::set<int> numbers;
+    for (const char* vehicle : {"perching_uav", "perching_hexa", "perching_x8", "iris", "cad_uav",
+                                "mine", "mine too", ""}) {
+        const int number = px4_airframe_id(vehicle);
+        EXPECT_TRUE(numbers.insert(number).second) << vehicle;
+        EXPECT_GE(number, kFirstOwnAirframe);
+        EXPECT_LE(number, kLastOwnAirframe);
+    }
+    EXPECT_EQ(px4_airframe_id("perching_uav"), 22001);
+    EXPECT_EQ(px4_airframe_id("perching_hexa"), 22002);
+    EXPECT_GE(px4_airframe_id("mine"), 22100);
+    EXPECT_EQ(px4_airframe_vehicle(22002), "perching_hexa");
+    EXPECT_EQ(px4_airframe_vehicle(px4_airframe_id("mine")), "");
+    EXPECT_EQ(px4_airframe_vehicle(22000), "");
 }
 
 std::string refusal(const Px4Airframe& airframe) {

@@ -70,6 +70,8 @@ TEST_F(Px4ProcessTest, ABuildFliesTheAirframeAmongItsOwn) {
     write(build_ / "etc/init.d-posix/rcS", "theirs");
     write(build_ / "etc/init.d-posix/airframes/10016_none_iris", "theirs");
     write(build_ / "etc/init.d-posix/airframes/22001_limpet_mine", "an older one");
+    write(build_ / "etc/init.d-posix/airframes/22001_limpet_of_another", "of the same number");
+    write(build_ / "etc/init.d-posix/airframes/220010_not_ours", "of another number");
     write(build_ / "bin/px4",
           "#!/bin/sh\ncd \"$5\"; cat etc/init.d/rc.mc_defaults etc/init.d-posix/rcS > \"$OUT\"\n"
           "ls etc/init.d-posix/airframes >> \"$OUT\"\n"
@@ -82,7 +84,7 @@ TEST_F(Px4ProcessTest, ABuildFliesTheAirframeAmongItsOwn) {
     {
         Px4Process px4(build_.string(), a_vehicle(), {.number = 2});
         EXPECT_EQ(comes_to_be(folder_ / "out.whole"),
-                  "theirstheirs10016_none_iris\n22001_limpet_mine\n"
+                  "theirstheirs10016_none_iris\n220010_not_ours\n22001_limpet_mine\n"
                   "param set-default MC_PITCHRATE_P 0.123\n22001 -d -i 2 -w\n");
         px4.require_running();
     }
@@ -111,6 +113,70 @@ TEST_F(Px4ProcessTest, ACommandHasItsInstanceAndItsFolderAndEndsWithAllItStarted
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     EXPECT_FALSE(runs(child));
+}
+
+TEST_F(Px4ProcessTest, ABuildIsNotToldWhatItHasNoParameterFor) {
+    write(build_ / "etc/init.d-posix/airframes/10016_none_iris", "theirs");
+    write(build_ / "parameters.json",
+          R"({"parameters": [{"name": "MC_PITCHRATE_P", "type": "Float", "default": 0.15}]})");
+    write(build_ / "bin/px4",
+          "#!/bin/sh\ngrep -h '^param' \"$5\"/etc/init.d-posix/airframes/22* > \"$OUT\"\n"
+          "mv \"$OUT\" \"$OUT.whole\"\nsleep 60\n");
+    fs::permissions(build_ / "bin/px4", fs::perms::owner_all);
+    const fs::path out = folder_ / "fitted";
+    ASSERT_EQ(setenv("OUT", out.c_str(), 1), 0);
+    const Px4Process px4(build_.string(), a_vehicle(), {});
+    EXPECT_EQ(comes_to_be(folder_ / "fitted.whole"), "param set-default MC_PITCHRATE_P 0.123\n");
+    EXPECT_THAT(px4.left_out(), testing::Contains("MPC_USE_HTE"));
+}
+
+/// Its folder goes; what it printed and logged is what a failed flight is looked into with.
+TEST_F(Px4ProcessTest, ItsConsoleAndItsLogsAreKept) {
+    const fs::path there = folder_ / "there";
+    write(there / "px4.ulg", "of an earlier flight");
+    write(there / "px4_2.ulg", "of an earlier flight");
+    write(there / "px4_3.ulg", "of an earlier flight");
+    write(there / "flight.mcap", "a recording");
+    Px4Process px4(
+        "cd {folder}; mkdir -p log/1970-01-01; echo b > log/1970-01-01/00_00_31.ulg;"
+        "echo a > log/1970-01-01/00_00_02.ulg; echo no > log/params.bson;"
+        "echo ERROR; echo > '" +
+            (folder_ / "done").string() + "'; sleep 60",
+        a_vehicle(), {});
+    (void)comes_to_be(folder_ / "done");
+    EXPECT_EQ(px4.keep(there),
+              (std::vector<fs::path>{there / "px4.log", there / "px4.ulg", there / "px4_2.ulg"}));
+    EXPECT_EQ(text_of(there / "px4.log"), "ERROR\n");
+    EXPECT_EQ(text_of(there / "px4.ulg"), "a\n");
+    EXPECT_EQ(text_of(there / "px4_2.ulg"), "b\n");
+    EXPECT_FALSE(fs::exists(there / "px4_3.ulg"));
+    EXPECT_EQ(text_of(there / "flight.mcap"), "a recording");
+    EXPECT_THROW(px4.require_running(), InputError) << "it has been ended";
+    EXPECT_THROW((void)px4.keep(folder_ / "not there"), InputError);
+}
+
+/// Of a flight that was killed (SIGKILL), which could not clean up.
+TEST_F(Px4ProcessTest, AFolderThatNobodyIsAtWorkInGoesWithTheNext) {
+    const auto make = [](const std::string& name, std::chrono::seconds old) {
+        const fs::path folder =
+            fs::temp_directory_path() / (name + std::to_string(getpid()) + "_swept");
+        fs::create_directories(folder / "log");
+        fs::last_write_time(folder, fs::file_time_type::clock::now() - old);
+        return folder;
+    };
+    const fs::path killed = make("limpet_px4_run_a", std::chrono::hours(1));
+    const fs::path young = make("limpet_px4_run_b", std::chrono::seconds(0));
+    const fs::path at_work = make("limpet_px4_run_c", std::chrono::hours(1));
+    const fs::path others = make("limpet_px4_", std::chrono::hours(1));
+    {
+        const FolderLock lock(at_work);
+        const Px4Process px4("sleep 60", a_vehicle(), {});
+    }
+    EXPECT_FALSE(fs::exists(killed));
+    for (const fs::path& folder : {young, at_work, others}) {
+        EXPECT_TRUE(fs::exists(folder)) << folder;
+        fs::remove_all(folder);
+    }
 }
 
 TEST_F(Px4ProcessTest, OneThatEndsByItselfIsToldWithItsLastLine) {

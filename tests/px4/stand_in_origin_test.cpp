@@ -54,5 +54,35 @@ TEST(StandIn, MayForbidArmingForAMomentAfterItsFirstOrigin) {
     EXPECT_EQ(driver.arm(), 0);
 }
 
+/// As PX4: also before its first pose.
+TEST(StandIn, TellsAnOriginThatComesBeforeItsPoses) {
+    StandInDriver driver;
+    driver.poses_over_tcp = false;
+    driver.boot();
+    ASSERT_EQ(driver.companion.send(mavlink::SetGpsGlobalOrigin{.target_system = 1}),
+              wire::TransferStatus::done);
+    driver.run(0.1);
+    EXPECT_EQ(driver.heard[mavlink::GpsGlobalOrigin::kId], 1);
+    EXPECT_FALSE(driver.estimate);
+}
+
+/// As PX4's main since 2026-06-29: a first origin that comes after the poses throws them off.
+TEST(StandIn, MayBeThrownOffByAnOriginThatComesAfterItsPoses) {
+    StandInOptions options;
+    options.origin_throws_m = 5'227'320.0;
+    for (const bool first : {true, false}) {
+        StandInDriver driver(options);
+        driver.poses_over_tcp = !first;
+        driver.boot();
+        ASSERT_EQ(driver.companion.send(mavlink::SetGpsGlobalOrigin{.target_system = 1}),
+                  wire::TransferStatus::done);
+        driver.run(0.1);
+        driver.poses_over_tcp = true;
+        driver.run(0.5);
+        ASSERT_TRUE(driver.estimate);
+        EXPECT_NEAR(driver.estimate->p_WB_m.x(), first ? 1.0 : 5'227'321.0, 0.6);  // a float's
+    }
+}
+
 }  // namespace
 }  // namespace limpet::px4

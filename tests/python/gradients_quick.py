@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The vehicle meets the wall as fast as it is told to; what a single mission's slopes say of a time and of a peak
+"""The vehicle meets the wall as fast as commanded; what the slopes of a single mission show for a time and of a peak
 is not what the mean does."""
 import sys
 

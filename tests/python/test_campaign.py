@@ -25,10 +25,10 @@ def test_rows_are_those_of_the_program(tmp_path):
     theirs = limpet.read_results(tmp_path / "b")
     assert ours.runs["state_hash"].tolist() == theirs.runs["state_hash"].tolist()
     assert theirs.success_means == ["perched"]
-    said = json.loads(subprocess.run([PROGRAM, "summary", ours.file, "--json"], capture_output=True,
+    summary = json.loads(subprocess.run([PROGRAM, "summary", ours.file, "--json"], capture_output=True,
                                      check=True).stdout)
     share, low, high = ours.interval()
-    assert np.allclose([share, low, high], [said["success"][k] for k in ("probability", "low", "high")],
+    assert np.allclose([share, low, high], [summary["success"][k] for k in ("probability", "low", "high")],
                        atol=1e-6)
 
 
@@ -75,7 +75,7 @@ def test_ctrl_c_and_what_a_callback_raises_end_it_soon():
 def test_progress_comes_to_the_end():
     seen = []
     limpet.campaign(scenario="hover", changes={"simulation.hover_s": 0.2}, runs=3,
-                    on_progress=lambda *told: seen.append(told))
+                    on_progress=lambda *progress: seen.append(progress))
     assert seen[-1] == (3, 3)
 
 
@@ -83,28 +83,28 @@ def test_progress_of_one_that_goes_on_counts_what_is_there(tmp_path):
     seen = []
     for _ in range(2):
         limpet.campaign(scenario="hover", changes={"simulation.hover_s": 0.2}, runs=3, out=tmp_path / "r",
-                        resume=True, on_progress=lambda *told: seen.append(told))
+                        resume=True, on_progress=lambda *progress: seen.append(progress))
     assert seen[-1] == (3, 3)
 
 
-@pytest.mark.parametrize("told", ["success:\n  - perched", 'success: ["perched"]', '"success": [perched]',
+@pytest.mark.parametrize("success", ["success:\n  - perched", 'success: ["perched"]', '"success": [perched]',
                                   "success:\n  [perched,\n   perched]"])
-def test_success_is_read_as_the_program_does(tmp_path, told):
-    (tmp_path / "c.yaml").write_text(f"scenario: pendulum_concrete\nruns: 3\n{told}\n")
+def test_success_is_read_as_the_program_does(tmp_path, success):
+    (tmp_path / "c.yaml").write_text(f"scenario: pendulum_concrete\nruns: 3\n{success}\n")
     assert set(limpet.campaign(tmp_path / "c.yaml").success_means) == {"perched"}
 
 
-@pytest.mark.parametrize("asked, told", [
-    (dict(wanted="smoke", runs=1, seed=9), "smoke says runs, seed itself"),
+@pytest.mark.parametrize("arguments, message", [
+    (dict(wanted="smoke", runs=1, seed=9), "smoke sets runs, seed itself"),
     (dict(scenario="hover", jobs=-1), "jobs = -1 is out of range, allowed 1..1024"),
     (dict(scenario="hover", runs=0), "0 is out of range"),
     (dict(scenario="hover", changes={"seed": 4}), "seed=4 is the campaign's own"),
     (dict(scenario="hover", vary={"simulation.hover_s": 3.0}), "hover_s: \\(from, to\\), a list"),
     (dict(scenario="hover", vary={"simulation.hovers_s": [3.0]}), "^campaign\\(\\): parameters.simulation.hovers_s"),
     (dict(scenario="hover", out="/etc/passwd"), "cannot make this folder")])
-def test_what_cannot_be_flown_is_told_in_a_line(asked, told):
-    with pytest.raises(limpet.InputError, match=told):
-        limpet.campaign(**asked)
+def test_what_cannot_be_flown_is_refused_in_a_line(arguments, message):
+    with pytest.raises(limpet.InputError, match=message):
+        limpet.campaign(**arguments)
 
 
 def test_scenarios_of_any_name_and_loaded_ones_fly(tmp_path):

@@ -19,14 +19,14 @@ PROGRAM = Path(limpet.__file__).parents[2] / "apps/limpet/limpet"
 
 
 def test_flies_what_the_program_flies():
-    said = json.loads(subprocess.run(
+    printed = json.loads(subprocess.run(
         [PROGRAM, "fly", "perch_concrete", "--set", "guidance.dock_speed_m_s=1.0", "--set", "seed=3",
          "--no-record", "--json"], capture_output=True, check=True).stdout)
     flown = limpet.fly("perch_concrete", {"guidance.dock_speed_m_s": 1.0}, seed=3)
-    assert flown.outcome == said["outcome"] == "released"
-    assert f"{flown.state_hash:016x}" == said["state_hash"]
+    assert flown.outcome == printed["outcome"] == "released"
+    assert f"{flown.state_hash:016x}" == printed["state_hash"]
     for name in ("impact_force_N", "release_s", "energy_flying_Wh"):
-        assert flown.metrics[name] == said["metrics"][name]
+        assert flown.metrics[name] == printed["metrics"][name]
 
 
 def test_channels_are_arrays_over_the_flight_itself():
@@ -171,10 +171,10 @@ print("ends", flush=True)
 def test_a_branch_is_of_the_same_vehicle():
     scenario = limpet.load("perch_concrete")
     moment = limpet.Flight(scenario).save()
-    for changes, told in (({"vehicle": "perching_hexa"}, "another vehicle: 6 rotors"),
+    for changes, message in (({"vehicle": "perching_hexa"}, "another vehicle: 6 rotors"),
                           ({"mission": "perch"}, "another kind: mission perch "),
                           ({"simulation.engine": "mujoco"}, "engine mujoco")):
-        with pytest.raises(limpet.InputError, match=told):
+        with pytest.raises(limpet.InputError, match=message):
             limpet.Flight(limpet.load("perch_concrete", changes), start=moment)
     with pytest.raises(ValueError, match="no run"):
         limpet.Flight(scenario, 7, start=moment)

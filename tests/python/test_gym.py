@@ -7,7 +7,7 @@ from limpet import gym
 
 
 def straight(observation):
-    """Straight on at 1.1 m/s, turning until both LiDARs say the same."""
+    """Straight on at 1.1 m/s, turning until both LiDARs read the same."""
     left, right = observation[..., 0].astype(float), observation[..., 1].astype(float)
     turn = np.clip(8.0 * (left - right), -1.0, 1.0)
     zero = np.zeros_like(turn)

@@ -78,20 +78,20 @@ def station(method, answer, **more):
     return type("Mine", (), {method: lambda self, *_: answer, **more})()
 
 
-@pytest.mark.parametrize("answer, told", [
+@pytest.mark.parametrize("answer, message", [
     (None, "update\\(\\) returned NoneType, not a Setpoint"), (5, "returned int, not a Setpoint"),
     ((limpet.Setpoint.idle(), None, "x"), "returned NoneType, not a Setpoint, or")])
-def test_what_guidance_returns_by_mistake_is_told(answer, told):
-    with pytest.raises(TypeError, match=told):
+def test_what_guidance_returns_by_mistake_is_named(answer, message):
+    with pytest.raises(TypeError, match=message):
         limpet.fly("hover", guidance=station("update", answer))
 
 
-@pytest.mark.parametrize("answer, error, told", [
+@pytest.mark.parametrize("answer, error, message", [
     (None, TypeError, "control\\(\\) returned NoneType, not \\(thrust, torque\\)"), ("abcd", ValueError, "control"),
     ((float("nan"), [0, 0, 0]), limpet.InputError, "not finite"),
     ([0.5, 0.5, float("inf"), 0.5], limpet.InputError, "not finite"), ([0.5] * 3, ValueError, "4 rotors")])
-def test_what_an_autopilot_returns_by_mistake_is_told(answer, error, told):
-    with pytest.raises(error, match=told):
+def test_what_an_autopilot_returns_by_mistake_is_named(answer, error, message):
+    with pytest.raises(error, match=message):
         limpet.fly("hover", autopilot=station("control", answer))
 
 
@@ -110,7 +110,7 @@ def test_a_memory_size_is_a_whole_number(size):
 
 
 def test_memory_may_be_kept():
-    """A copy of what it was: the flight's own numbers go with the flight."""
+    """A copy of what it was: the flight's numbers end with the flight."""
     class Keeps:
         memory_size = 50000
 

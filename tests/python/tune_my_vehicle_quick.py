@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The example's race finds settings that are worth more than the guidance's own, on missions that none
+"""The example's race finds settings that are worth more than the guidance's defaults, on missions that none
 of them has flown; what it writes flies."""
 import contextlib
 import io
@@ -30,8 +30,8 @@ tiny = out / "tiny.yaml"
 tiny.write_text("cup: {radius_m: 0.01}\n", encoding="utf-8")
 sys.argv = ["tune_my_vehicle.py", "--vehicle", str(tiny), "--candidates", "3", "--missions", "2", "--final", "4", "--jobs", "2",
             "--out", str(out / "tiny")]
-with contextlib.redirect_stdout(io.StringIO()) as said:
+with contextlib.redirect_stdout(io.StringIO()) as printed:
     code = example.main()
-assert code == 1, said.getvalue()
-assert "no settings: none of 4 missions ends released" in said.getvalue() and "--set" not in said.getvalue(), said.getvalue()
+assert code == 1, printed.getvalue()
+assert "no settings: none of 4 missions ends released" in printed.getvalue() and "--set" not in printed.getvalue(), printed.getvalue()
 assert not (out / "tiny" / "tuned.yaml").exists()

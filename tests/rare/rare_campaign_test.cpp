@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/rare/rare_campaign.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +6,7 @@
 
 #include "../campaign/campaigns.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/rare/rare_summary.hpp"
+#include "limpet/rare/rare.hpp"
 
 namespace limpet::rare {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/mcap/format.hpp"
-#include "limpet/record/message_definitions.hpp"
 #include "limpet/record/table.hpp"
 #include "limpet/record/topics.hpp"
 #include "limpet/record/units.hpp"

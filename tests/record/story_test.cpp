@@ -102,6 +102,21 @@ TEST(Story, summary_of_a_finished_flight) {
     EXPECT_EQ(facts.reason, "back at the pre-position");
 }
 
+/// Its words are printed, whoever wrote them.
+TEST(Story, a_summary_steers_no_terminal) {
+    Recording recording;
+    recording.metadata["limpet"] = {{"scenario", "\x1b[31ma\nb\x7f"}, {"seed", "\xC2\x9B 7"}};
+    recording.attachments.push_back({.name = "summary.json",
+                                     .media_type = "application/json",
+                                     .text = "{\"outcome\": \"\\u001b]0;x\\u0007\", "
+                                             "\"reason\": \"\u00fcber \\u009b2J\"}",
+                                     .log_time_ns = 0});
+    EXPECT_EQ(summary(recording).scenario, " [31ma b ");
+    EXPECT_EQ(summary(recording).seed, "   7");
+    EXPECT_EQ(summary(recording).outcome, " ]0;x ");
+    EXPECT_EQ(summary(recording).reason, "\u00fcber   2J");
+}
+
 TEST(Story, summary_of_nothing_and_of_nonsense_is_empty) {
     Recording recording;
     EXPECT_EQ(summary(recording).outcome, "");

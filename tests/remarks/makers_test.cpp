@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/remarks/makers.hpp"
-
 #include <gmock/gmock.h>
 
+#include "limpet/remarks/remarks.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/loader.hpp"
 
@@ -22,7 +21,7 @@ TEST(Makers, AreContentWithThePapersWalls) {
                              "perch_metal", "perch_blade", "perch_wet_metal"}) {
         EXPECT_THAT(makers_warnings(with(name, {})), IsEmpty()) << name;
         EXPECT_THAT(makers_notes(with(name, {})),
-                    ElementsAre(HasSubstr("cup manufacturers ask for")));
+                    ElementsAre(HasSubstr("cup manufacturers require")));
     }
     EXPECT_THAT(makers_notes(with("hover", {})), IsEmpty());
 }
@@ -31,7 +30,7 @@ TEST(Makers, AreContentWithThePapersWalls) {
 TEST(Makers, TellHowOftenTheWeightIsCarriedAlongTheWall) {
     EXPECT_THAT(makers_notes(with("perch_metal", {})),
                 ElementsAre(HasSubstr("carries 7.1 times the weight along the wall (friction 0.6, "
-                                      "vacuum 738 hPa); cup manufacturers ask for 1.5")));
+                                      "vacuum 738 hPa); cup manufacturers require 1.5")));
     EXPECT_THAT(makers_warnings(with("perch_metal", {"wall.condition=oiled"})),
                 ElementsAre(HasSubstr("carries 1.2 times")));
 }

@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <utility>
+
+#include "limpet/remarks/digits.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "tests/scenario/test_data.hpp"
@@ -41,6 +45,29 @@ constexpr const char* kSmall =
 
 std::string on_steel(const std::string& vehicle) {
     return "wall: {surface: metal}\nvehicle: " + vehicle + "\n";
+}
+
+TEST(Remarks, NumbersAreWrittenAsAPersonDoes) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const auto& [value, text] : {std::pair(479.6, "480"),
+                                      {0.03512, "0.035"},
+                                      {95.9, "96"},
+                                      {99.7, "100"},
+                                      {1234567.0, "1200000"},
+                                      {-0.00012345, "-0.00012"},
+                                      {0.0, "0"},
+                                      {infinite, "inf"}}) {
+        EXPECT_EQ(about(value), text);
+    }
+    EXPECT_EQ(about(0.0951, 1), "0.1");
+    EXPECT_THAT(of("perch_concrete", {"vehicle.mass_kg=5.5"}),
+                Contains(HasSubstr("damping_N_s_m is 30, 100 throws nothing back")));
+}
+
+TEST(Remarks, GainsOfNothingAreNamed) {
+    EXPECT_THAT(of("perch_concrete", {"autopilot.MC_PITCHRATE_P=0"}),
+                ElementsAre(HasSubstr("the pitch rate does not follow at all: "
+                                      "autopilot.MC_PITCHRATE_K is 1, MC_PITCHRATE_P 0")));
 }
 
 TEST(Remarks, WhatShipsHasNone) {

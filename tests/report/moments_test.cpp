@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/report/moments.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
 #include "../support/flights.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/report/filmstrip.hpp"
 
 namespace limpet::report {
 namespace {

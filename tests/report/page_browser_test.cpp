@@ -72,7 +72,7 @@ TEST_F(InABrowser, faults_are_seen) {
     }
     for (const char* problem :
          {"image does not load: broken", "image does not load: far",
-          "asks for https://example.invalid/x.png", "console: hm", "thrown",
+          "requests https://example.invalid/x.png", "console: hm", "thrown",
           "link to #nowhere leads nowhere", "gone.mcap", "javascript:1", "too wide at 360 px"}) {
         EXPECT_THAT(found, HasSubstr(problem));
     }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/report/panels.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <limits>
 
 #include "../support/flights.hpp"
+#include "limpet/report/figures.hpp"
 
 namespace limpet::report {
 namespace {
@@ -208,10 +207,11 @@ void expect_only_between(const draw::ChartSeries& series, double from_s, double 
 TEST(Panels, show_what_guidance_asked_for_beside_what_came_of_it) {
     const auto all = panels(asked_flight(), kAll);
     // 0.2 m nearer to the wall than where the LiDARs see it 1.5 m away; to the east, as the yaw.
-    expect_only_between(curve(all, "distance of the LiDARs to the wall", "asked"), 1.0, 2.0, 1.3);
-    expect_only_between(curve(all, "speed ahead", "asked"), 2.0, 3.0, 1.1);
-    expect_only_between(curve(all, "pitch", "asked"), 3.0, 4.0, 20.0);
-    EXPECT_EQ(curve(all, "pitch", "asked").mark, draw::ChartSeries::Mark::dashes);
+    expect_only_between(curve(all, "distance of the LiDARs to the wall", "set-point"), 1.0, 2.0,
+                        1.3);
+    expect_only_between(curve(all, "speed ahead", "set-point"), 2.0, 3.0, 1.1);
+    expect_only_between(curve(all, "pitch", "set-point"), 3.0, 4.0, 20.0);
+    EXPECT_EQ(curve(all, "pitch", "set-point").mark, draw::ChartSeries::Mark::dashes);
     for (const double speed : curve(all, "speed ahead", "true").y) {
         EXPECT_NEAR(speed, 0.9, 1e-9);
     }
@@ -220,7 +220,7 @@ TEST(Panels, show_what_guidance_asked_for_beside_what_came_of_it) {
 TEST(Panels, show_no_setpoint_where_none_was_recorded) {
     for (const draw::ChartPanel& panel : panels(test::fly(), kAll)) {
         for (const draw::ChartSeries& series : panel.series) {
-            EXPECT_NE(series.name, "asked") << panel.y_label;
+            EXPECT_NE(series.name, "set-point") << panel.y_label;
         }
     }
 }

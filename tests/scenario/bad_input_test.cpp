@@ -103,6 +103,9 @@ TEST_F(BadInput, WrongType) {
               "x.yaml:3: description: must be text, is a list");
     EXPECT_EQ(error_of([&] { return data_.load_text("- hover\n"); }),
               "x.yaml: must be a section (key: value), is a list");
+    EXPECT_EQ(error_of([&] { return data_.load_text("\n<?xml version=\"1.0\"?>\n<robot/>\n"); }),
+              "x.yaml:1: is XML, not YAML; a URDF or MJCF is named in a vehicle's file, under "
+              "`model` (docs/own_vehicle.md)");
 }
 
 TEST_F(BadInput, UnknownKey) {

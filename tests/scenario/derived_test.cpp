@@ -51,6 +51,19 @@ TEST_F(Derived, GuidanceKnowsOfTheValve) {
     EXPECT_EQ(load({"suction.valve_fitted=true"}).guidance.valve_fitted, true);
 }
 
+/// What the legs stand does not depend on how far it may lean otherwise.
+TEST_F(Derived, TheLeanAcrossIsTheVehiclesWhateverTheOtherLimitIs) {
+    const auto across = [this](const char* limit_deg) {
+        const auto guidance = load({std::string("guidance.lean_limit_deg=") + limit_deg}).guidance;
+        return guidance.lean_across_share * std::tan(radians(guidance.lean_limit_deg));
+    };
+    const double usual = across("25");
+    EXPECT_LT(usual, std::tan(radians(25.0)));
+    EXPECT_NEAR(across("40"), usual, 1e-12);
+    EXPECT_NEAR(across("20"), usual, 1e-12);
+    EXPECT_NEAR(across("5"), std::tan(radians(5.0)), 1e-12);  // the other limit comes first
+}
+
 TEST_F(Derived, GivenKeysWin) {
     const Scenario s = load({"guidance.hover_thrust=0.5", "autopilot.MPC_THR_HOVER=0.6",
                              "suction.radius_m=0.03", "guidance.lidar_x_m=0.1"});

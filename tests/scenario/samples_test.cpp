@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/scenario/samples.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
+#include "limpet/scenario/catalogue.hpp"
 #include "tests/scenario/test_data.hpp"
 
 namespace limpet::scenario {

@@ -96,7 +96,7 @@ TEST(Tables, HoldEveryDerivedKey) {
     for_each_row([&](const std::string& section, const BoundParameter& row) {
         count += derived(section, row.name, {}) ? 1 : 0;
     });
-    EXPECT_EQ(count, 20);
+    EXPECT_EQ(count, 21);
 }
 
 }  // namespace

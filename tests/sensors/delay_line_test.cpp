@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/sensors/delay_line.hpp"
-
 #include <gtest/gtest.h>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/sensors/sensor.hpp"
 
 namespace limpet::sensors {
 namespace {

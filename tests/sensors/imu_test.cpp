@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "limpet/sensors/noise.hpp"
+#include "limpet/sensors/sensor.hpp"
 #include "tests/sensors/bench_room.hpp"
 
 namespace limpet::sensors {

@@ -56,7 +56,8 @@ TEST(WindInTheLoop, MoreThanItCanLeanAgainstIsDeclined) {
     const Trace flight = trace(model_of(
         "perch_concrete", {"environment.wind_speed_m_s=6.5", "environment.wind_from_deg=90"}));
     EXPECT_EQ(flight.result.outcome, Outcome::aborted);
-    EXPECT_EQ(flight.result.reason, "too much wind: leans too far");
+    EXPECT_EQ(flight.result.reason,
+              "too much wind along the wall: at rest it would tip over a leg");
     EXPECT_EQ(flight.result.attempts, 0);
 }
 
@@ -69,6 +70,50 @@ TEST(WindInTheLoop, BetweenWhatItFliesAndDeclinesNothingHitsTheWall) {
             EXPECT_NE(flight.result.outcome, Outcome::crashed) << speed << " from " << from;
         }
     }
+}
+
+/// From the first wind to those that it declines, along the wall from both sides: no vehicle is
+/// carried into the wall, and each flies what the page on wind says.
+TEST(WindInTheLoop, EveryVehicleStandsACrosswindOrDeclinesIt) {
+    struct Case {
+        const char* vehicle;
+        const char* speed;
+        Outcome outcome;
+    };
+    for (const auto& [vehicle, speed, outcome] : {Case{"perching_x8", "3", Outcome::released},
+                                                  Case{"perching_x8", "3.5", Outcome::released},
+                                                  Case{"perching_x8", "4.5", Outcome::aborted},
+                                                  Case{"perching_hexa", "4", Outcome::released},
+                                                  Case{"perching_hexa", "4.5", Outcome::aborted},
+                                                  Case{"perching_uav", "4.5", Outcome::released},
+                                                  Case{"perching_uav", "5.5", Outcome::aborted}}) {
+        for (const char* from : {"90", "270"}) {
+            const Trace flight = trace(
+                model_of("perch_metal_valve", {std::string("vehicle=") + vehicle,
+                                               std::string("environment.wind_speed_m_s=") + speed,
+                                               std::string("environment.wind_from_deg=") + from}));
+            SCOPED_TRACE(std::string(vehicle) + " " + speed + " m/s from " + from);
+            EXPECT_EQ(flight.result.outcome, outcome) << flight.result.reason;
+            EXPECT_EQ(flight.result.attempts, outcome == Outcome::released ? 1 : 0);
+        }
+    }
+}
+
+/// It pitches up in the plane that the lip holds, and never leans over one leg.
+TEST(WindInTheLoop, OnTheWallBothLegsMeetIt) {
+    const auto model = model_of(
+        "perch_metal_valve",
+        {"vehicle=perching_x8", "environment.wind_speed_m_s=3", "environment.wind_from_deg=90"});
+    const Trace flight = trace(model);
+    double most_deg = 0.0;
+    for (std::size_t i = 0; i < flight.truth.size(); ++i) {
+        if (flight.state[i] == guidance::PerchingState::pitching_up ||
+            flight.state[i] == guidance::PerchingState::resting) {
+            const Vector3 n_B = flight.truth[i].base.q_WF.conjugate() * Vector3::UnitX();
+            most_deg = std::max(most_deg, std::abs(degrees(std::asin(n_B.y()))));
+        }
+    }
+    EXPECT_LT(most_deg, 6.0);  // 16 when it was held below the cup, and a propeller hit the wall
 }
 
 TEST(WindInTheLoop, InGustsItIsPatientAndLeaves) {

@@ -54,10 +54,15 @@ private:
 /// The simulator's wires with a stand-in at their end.
 class Loopback {
 public:
-    explicit Loopback(const FlightModel& model, px4::StandInOptions options = perching())
+    /// @param sets_origin  guidance gives it one; false: somebody else may
+    explicit Loopback(const FlightModel& model, px4::StandInOptions options = perching(),
+                      bool sets_origin = true,
+                      double aiding_limit_s = px4::Px4Options().aiding_limit_s)
         : hil_(listen(wire::Medium::tcp)),
           offboard_(listen(wire::Medium::udp)),
-          options_(std::move(options)) {
+          options_(std::move(options)),
+          sets_origin_(sets_origin),
+          aiding_limit_s_(aiding_limit_s) {
         options_.hil = hil_.transport().address();
         options_.onboard.port = 0;
         options_.onboard_peer = offboard_.transport().address();
@@ -81,6 +86,8 @@ public:
     [[nodiscard]] px4::Px4Autopilot& autopilot() { return *autopilot_; }
     [[nodiscard]] const mavlink::Link& hil() const { return hil_; }
     [[nodiscard]] const mavlink::Link& offboard() const { return offboard_; }
+    /// To speak to the stand-in as another companion.
+    [[nodiscard]] mavlink::Link& companion() { return offboard_; }
 
     std::string last_text;           ///< STATUSTEXT
     std::vector<std::string> texts;  ///< all of them
@@ -97,6 +104,8 @@ private:
         px4::Px4Options px4;
         px4.hil.answer_limit = 2000ms;
         px4.control_rate_Hz = model.control_rate_Hz;
+        px4.offboard.sets_origin = sets_origin_;
+        px4.aiding_limit_s = aiding_limit_s_;
         px4.on_text = [this](const std::string& text) {
             last_text = text;
             texts.push_back(text);
@@ -107,6 +116,8 @@ private:
     mavlink::Link hil_;
     mavlink::Link offboard_;
     px4::StandInOptions options_;
+    bool sets_origin_;
+    double aiding_limit_s_;
     std::unique_ptr<StandInThread> stand_in_;
     std::optional<px4::Px4Autopilot> autopilot_;
 };

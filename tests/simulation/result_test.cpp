@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flown.hpp"
-#include "limpet/simulation/result_json.hpp"
+#include "limpet/simulation/flight_text.hpp"
 
 namespace limpet::simulation {
 namespace {

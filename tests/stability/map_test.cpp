@@ -38,7 +38,7 @@ TEST(LinearSwing, SaysWhatItAsksFor) {
         }
         return std::string();
     };
-    EXPECT_THAT(refusal("hover", {}), HasSubstr("hover: the swing on the cup asks for a wall"));
+    EXPECT_THAT(refusal("hover", {}), HasSubstr("hover: the swing on the cup needs a wall"));
     EXPECT_THAT(refusal("pendulum_concrete", {}), HasSubstr("a free vehicle"));
     EXPECT_THAT(refusal("perch_metal", {"autopilot.MC_PITCHRATE_I=-1"}), HasSubstr("allowed"));
     EXPECT_THAT(refusal("perch_metal", {"sensors.imu_rate_Hz=300"}),

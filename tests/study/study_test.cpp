@@ -29,7 +29,7 @@ constexpr const char* kHovers =
     "  sensors.lidar_noise_m: {uniform: [0.002, 0.02]}\n";
 
 campaign::Results begun(const campaign::Campaign& campaign, const fs::path& folder,
-                        const StudyAsked& asked) {
+                        const StudyRequest& asked) {
     fs::create_directories(folder);
     campaign::Results results = begin_results(campaign, folder, true);
     begin_study(results, asked);
@@ -94,7 +94,7 @@ TEST(Study, TheFlightsOwnNoiseIsAnInput) {
 TEST(Study, DoesNotDependOnTheNumberOfWorkersAndGoesOn) {
     const Bench bench;
     const campaign::Campaign campaign = campaign::campaign_of(bench, kHovers);
-    const StudyAsked asked{.figure = "simulated_s", .samples = 20};
+    const StudyRequest asked{.figure = "simulated_s", .samples = 20};
     campaign::Results one = begun(campaign, bench.folder() / "one", asked);
     campaign::Results three = begun(campaign, bench.folder() / "three", asked);
     (void)fly_study(one, 1);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/suction/seal.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "../support/suction.hpp"
+#include "limpet/suction/surface.hpp"
 
 namespace limpet::suction {
 namespace {

@@ -6,7 +6,7 @@ namespace limpet {
 /// @return calls of operator new by this thread, since it began
 [[nodiscard]] long allocations();
 
-/// @return bytes asked of operator new by this thread, since it began, given back or not
+/// @return bytes that this thread has allocated by operator new since it began, freed or not
 [[nodiscard]] unsigned long allocated_bytes();
 
 }  // namespace limpet

@@ -119,7 +119,7 @@ struct Attempt {
     }
 };
 
-/// Something that guidance or the cup says.
+/// An event of guidance or the cup.
 struct Note {
     double t = 0.0;
     EventName event = EventName::aborted;

@@ -8,7 +8,7 @@
 #include "limpet/suction/pressure.hpp"
 #include "limpet/suction/surface.hpp"
 
-/// What follows from the cup's laws and no flight asks for.
+/// What follows from the cup's laws and no flight needs.
 namespace limpet::suction {
 
 /// How long one airflow takes from one pressure to another, by its first-order law.
@@ -36,7 +36,7 @@ inline double share_below(double value, double median, double sigma) {
 }
 
 /// Probability that a touch with this press force and tilt seals, over the surface's randomness;
-/// the dwell that Fig. 6 also asks for is not in it.
+/// the dwell that Fig. 6 also requires is not in it.
 inline double seal_probability(const Surface& surface, double press_N, double tilt_rad) {
     if (press_N <= 0.0) {
         return 0.0;

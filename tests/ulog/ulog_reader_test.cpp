@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/ulog/ulog_reader.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +9,7 @@
 #include "../support/allocations.hpp"
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/ulog/ulog_writer.hpp"
+#include "limpet/ulog/ulog.hpp"
 
 namespace limpet::ulog {
 namespace {
@@ -181,6 +179,50 @@ TEST(UlogReader, ATopicThatIsSubscribedAgainGoesOn) {
     EXPECT_THAT(refusal(folder, kHead + message('F', format) +
                                     message('F', "a:uint64_t timestamp;double x")),
                 HasSubstr("two formats of \"a\" that are not alike"));
+}
+
+const std::string kSync = message('S', "\x2F\x73\x13\x20\x25\x0C\xBB\x12");
+
+/// Bytes that are lost in the middle: what follows would be read askew, as numbers.
+TEST(UlogReader, BehindADamageItGoesOnWhereMessagesBeginAgain) {
+    const TestFolder folder;
+    const std::string head =
+        kHead + message('F', "a:uint64_t timestamp;float x") + subscription(1, "a");
+    const auto row = [](float x) {
+        return message('D', bytes(std::uint16_t{1}) + bytes(std::uint64_t{1}) + bytes(x));
+    };
+    const std::string lost = row(2.0F).substr(5);
+    const Recording log = read(folder, head + row(1.0F) + lost + row(3.0F) + kSync + row(4.0F));
+    EXPECT_THAT(log.series("a", "x").values, ElementsAre(1.0, 4.0));
+    EXPECT_THAT(log.damage, HasSubstr("no message begins at byte"));
+    const Recording without = read(folder, head + row(1.0F) + lost + row(3.0F));
+    EXPECT_THAT(without.series("a", "x").values, ElementsAre(1.0));
+    EXPECT_THAT(without.damage, HasSubstr("no message begins at byte"));
+    const Recording astray = read(folder, head + row(1.0F) + message('D', std::string(12, '\7')));
+    EXPECT_THAT(astray.damage, HasSubstr("under number 1799, which stands for no topic"));
+    const Recording later = read(folder, head + message('Z', "of a later version") + row(1.0F));
+    EXPECT_THAT(later.series("a", "x").values, ElementsAre(1.0));
+    EXPECT_EQ(later.damage, "");
+}
+
+TEST(UlogReader, WhatWasAppendedIsRead) {
+    const TestFolder folder;
+    const std::string format = message('F', "a:uint64_t timestamp;float x");
+    const auto row = [](float x) {
+        return message('D', bytes(std::uint16_t{1}) + bytes(std::uint64_t{1}) + bytes(x));
+    };
+    const auto log_with = [&](char needed, std::uint64_t appended) {
+        return kHead +
+               message('B', std::string(8, '\0') + needed + std::string(7, '\0') + bytes(appended) +
+                                std::string(16, '\0')) +
+               format + subscription(1, "a") + row(1.0F) + row(2.0F).substr(0, 7);
+    };
+    const std::uint64_t cut = log_with('\1', 0).size();
+    const Recording log = read(folder, log_with('\1', cut) + row(3.0F));
+    EXPECT_THAT(log.series("a", "x").values, ElementsAre(1.0, 3.0));
+    EXPECT_EQ(log.damage, "");
+    EXPECT_THAT(refusal(folder, log_with('\2', 0)), HasSubstr("of a newer kind than 1"));
+    EXPECT_NE(read(folder, log_with('\1', 1U << 30U) + row(3.0F)).damage, "");
 }
 
 TEST(UlogReader, WhatIsNotInAMessageIsNoNumber) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/ulog/ulog_writer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,6 +6,7 @@
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recorder.hpp"
+#include "limpet/ulog/ulog.hpp"
 
 // Read by another's reader in adapters/web/test/ulog.test.ts; here, byte by byte.
 namespace limpet::ulog {

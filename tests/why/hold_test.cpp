@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpet/why/search.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {

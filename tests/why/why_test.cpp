@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A vehicle of somebody's own that is peeled off, asked why by the library and by the program.
+#include "limpet/why/why.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "limpet/why/keys.hpp"
-#include "limpet/why/report.hpp"
+#include "limpet/mcap/writer.hpp"
 #include "program.hpp"
 
 namespace limpet::why {
@@ -154,6 +156,60 @@ TEST(WhyVerb, ARecordingIsFlownAgain) {
     EXPECT_EQ(json["remedy"]["changes"].size(), 2U);
     EXPECT_THAT(why.err, Not(HasSubstr("another flight")));
     EXPECT_THAT(bench.files(), Contains("out/steel12_why/scenario.yaml"));
+}
+
+/// A recording with a scenario in it that is called so.
+void write_recording(const std::filesystem::path& file, const std::string& scenario,
+                     const std::string& name) {
+    mcap::Writer writer(file);
+    writer.add_metadata({"limpet", {{"scenario", name}, {"seed", "1"}}});
+    writer.add_attachment(
+        {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario});
+    writer.close();
+}
+
+/// As every verb that reads one: what is whole of it is used, the rest is a line and exit code 2.
+TEST(WhyVerb, ADamagedRecordingIsExplainedAndNamed) {
+    const Bench bench;
+    write_recording(bench.folder() / "x.mcap", "mission: hover\nvehicle: iris\n", "x");
+    std::filesystem::resize_file(bench.folder() / "x.mcap",
+                                 std::filesystem::file_size(bench.folder() / "x.mcap") - 20);
+    const Finished why = bench.run({"why", "x.mcap", "--no-figure"});
+    EXPECT_EQ(why.exit_code, 2);
+    EXPECT_THAT(why.out, HasSubstr("a success\n"));
+    EXPECT_THAT(why.err, HasSubstr("x.mcap: "));
+}
+
+/// The folder has the scenario's name, which a stranger may choose.
+TEST(WhyVerb, AStrangersRecordingWritesIntoNoFolderOfItsChoice) {
+    const Bench bench;
+    for (const std::string& name : {std::string("../../../escaped"), std::string("/tmp/escaped"),
+                                    std::string(".."), std::string(5000, 'x'), std::string()}) {
+        write_recording(bench.folder() / "x.mcap", "mission: hover\nvehicle: iris\n", name);
+        const Finished why = bench.run({"why", "x.mcap", "--no-figure"});
+        EXPECT_EQ(why.exit_code, 0) << why.err;
+        EXPECT_THAT(bench.files(), Contains("out/recording_why/why.json"));
+        EXPECT_THAT(why.out, HasSubstr("a success\n"));  // no cup, no margin
+        std::filesystem::remove_all(bench.folder() / "out");
+    }
+    write_recording(bench.folder() / "x.mcap", "mission: hover\nvehicle: iris\n",
+                    "\x1b[31mred\n\xC2\x9B");
+    const Finished why = bench.run({"why", "x.mcap", "--no-figure"});
+    EXPECT_THAT(why.out + why.err, Not(HasSubstr("\x1b")));
+    EXPECT_THAT(why.out + why.err, Not(HasSubstr("\xC2\x9B")));
+    EXPECT_THAT(bench.files(), Contains("out/ [31mred   _why/why.json"));
+}
+
+TEST(WhyVerb, ARecordingsScenarioIsNamedWhereItIsWrong) {
+    const Bench bench;
+    write_recording(bench.folder() / "x.mcap", "mission: hover\nvehicle: gone\n", "a");
+    EXPECT_THAT(bench.run({"why", "x.mcap"}).err, HasSubstr("x.mcap: scenario.yaml:2: vehicle"));
+    const auto pipe = (bench.folder() / "pipe.yaml").string();
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    write_recording(bench.folder() / "x.mcap", "mission: hover\nvehicle: " + pipe + "\n", "a");
+    const Finished why = bench.run({"why", "x.mcap"});
+    EXPECT_EQ(why.exit_code, 2);
+    EXPECT_THAT(why.err, HasSubstr("is a pipe or a device, must be a file"));
 }
 
 TEST(WhyVerb, WhatIsNoFlightIsRefusedInALine) {

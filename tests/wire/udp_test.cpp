@@ -234,7 +234,7 @@ TEST(UdpBroadcast, IsSentOnlyWhenAskedForAndAnswered) {
     EXPECT_THAT(refusal([&] {
                     (void)open_transport(at(port, Medium::udp, "127.255.255.255"), Role::connect);
                 }),
-                HasSubstr("ask for it with udp-broadcast:"));
+                HasSubstr("write udp-broadcast:"));
     const auto there = open_transport(at(port, wire::Medium::udp_broadcast, "127.255.255.255"),
                                       wire::Role::connect);
     EXPECT_EQ(say(*there, "who is there?"), wire::TransferStatus::done);

@@ -66,7 +66,7 @@ TEST_F(FlightHostTest, ARestartFliesTheSameAgain) {
     EXPECT_EQ(again->performance.simulated_s, lasted_s);
     // Gazebo puts links back to rounding, not to the bit
     EXPECT_NEAR(again->metrics.energy_flying_Wh, energy_Wh, 1e-6 * energy_Wh);
-    // Beside the first, each of them whole.
+    // Next to the first, each of them whole.
     for (const int number : {1, 2, 3}) {
         const std::filesystem::path file = flight_file(flight.recording, number);
         EXPECT_EQ(record::read_recording(file).damage, "") << file;
@@ -99,7 +99,7 @@ protected:
         flight.watch.on_event = [this](const Event& event) {
             rests = rests || event.name == EventName::motors_off;
             if (topics) {
-                topics->tell(event);
+                topics->publish(event);
             }
         };
         flight.watch.on_tick = [this](simulation::Flight& flown, const guidance::EventList&) {
@@ -116,36 +116,36 @@ protected:
     }
     void TearDown() override { std::filesystem::remove(flight.recording); }
 
-    /// What others hear of it, on threads of the transport's.
+    /// What other nodes receive of it, on threads of the transport.
     void listen() {
         topics = std::make_unique<FlightTopics>(*vehicle, "pilot", flight.scenario.airframe);
         node = gazebo::transport::NodePtr(new gazebo::transport::Node());
         node->Init(world->Name());
         subscribers = {
-            node->Subscribe("~/perching_uav/pilot/pressure", &AtRest::hear_pressure, this),
-            node->Subscribe("~/perching_uav/pilot/state", &AtRest::hear_state, this),
-            node->Subscribe("~/perching_uav/pilot/guidance", &AtRest::hear_guidance, this),
-            node->Subscribe("~/perching_uav/pilot/event", &AtRest::hear_event, this),
-            node->Subscribe("~/visual", &AtRest::hear_visual, this)};
+            node->Subscribe("~/perching_uav/pilot/pressure", &AtRest::receive_pressure, this),
+            node->Subscribe("~/perching_uav/pilot/state", &AtRest::receive_state, this),
+            node->Subscribe("~/perching_uav/pilot/guidance", &AtRest::receive_guidance, this),
+            node->Subscribe("~/perching_uav/pilot/event", &AtRest::receive_event, this),
+            node->Subscribe("~/visual", &AtRest::receive_visual, this)};
     }
     using Text = boost::shared_ptr<const gazebo::msgs::GzString>;
-    void hear_pressure(const boost::shared_ptr<const gazebo::msgs::Any>& message) {
+    void receive_pressure(const boost::shared_ptr<const gazebo::msgs::Any>& message) {
         const std::lock_guard lock(mutex);
         pressure_Pa = message->double_value();
     }
-    void hear_state(const Text& message) { hear("state", message->data()); }
-    void hear_guidance(const Text& message) { hear("guidance", message->data()); }
-    void hear_event(const Text& message) {
-        hear("event", message->data());
+    void receive_state(const Text& message) { receive("state", message->data()); }
+    void receive_guidance(const Text& message) { receive("guidance", message->data()); }
+    void receive_event(const Text& message) {
+        receive("event", message->data());
         const std::lock_guard lock(mutex);
         events += message->data() + "\n";
     }
-    void hear_visual(const boost::shared_ptr<const gazebo::msgs::Visual>& message) {
-        hear(message->name(), message->visible() ? "seen" : "unseen");
+    void receive_visual(const boost::shared_ptr<const gazebo::msgs::Visual>& message) {
+        receive(message->name(), message->visible() ? "seen" : "unseen");
     }
-    void hear(const std::string& what, const std::string& how) {
+    void receive(const std::string& what, const std::string& how) {
         const std::lock_guard lock(mutex);
-        heard[what] = how;
+        received[what] = how;
     }
 
     bool rests = false;
@@ -155,7 +155,7 @@ protected:
     std::mutex mutex;
     double pressure_Pa = 0.0;
     std::string events;
-    std::map<std::string, std::string> heard;
+    std::map<std::string, std::string> received;
 };
 
 TEST_F(AtRest, IsToldOnTheTransportAndSeenInThePicture) {
@@ -167,8 +167,8 @@ TEST_F(AtRest, IsToldOnTheTransportAndSeenInThePicture) {
     const auto has_come = [&] {
         const std::lock_guard lock(mutex);
         return std::all_of(wanted.begin(), wanted.end(), [&](const auto& one) {
-            const auto found = heard.find(one.first);
-            return found != heard.end() && found->second == one.second;
+            const auto found = received.find(one.first);
+            return found != received.end() && found->second == one.second;
         });
     };
     for (int k = 0; k < 100 && !has_come(); ++k) {  // rotors run down; messages take wall time
@@ -177,7 +177,7 @@ TEST_F(AtRest, IsToldOnTheTransportAndSeenInThePicture) {
     }
     const std::lock_guard lock(mutex);
     for (const auto& [what, how] : wanted) {
-        EXPECT_EQ(heard[what], how) << what;
+        EXPECT_EQ(received[what], how) << what;
     }
     EXPECT_LT(pressure_Pa, flight.scenario.guidance.land_pressure_Pa);
     EXPECT_NE(events.find(" cup attached: "), std::string::npos) << events;

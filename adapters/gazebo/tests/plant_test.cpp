@@ -180,7 +180,7 @@ TEST_F(GazeboPlantTest, TheWorldsClockFollowsChangingSteps) {
     EXPECT_NEAR(world->SimTime().Double(), 0.2, 1e-9);
 }
 
-/// What is refused, with a part of the line that says why.
+/// Refused input, with a part of the error.
 class WorldsThatDiffer : public GazeboPlantTest {
 protected:
     void expect_refused(const std::string& sdf, const std::string& why) {

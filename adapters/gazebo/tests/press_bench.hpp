@@ -12,7 +12,7 @@ namespace limpet::gazebo11 {
 
 /// A body of 1 kg with a cup, its lip 40 mm before a wall at x = 1, and a hand that pushes it.
 struct PressBench {
-    /// @param plugin   children of the plugin's element beside link and lip_pose
+    /// @param plugin   children of the plugin's element other than link and lip_pose
     /// @param gravity  "0 0 -9.81"
     /// @param more     further models
     /// @param engine   of the world

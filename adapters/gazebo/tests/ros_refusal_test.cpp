@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same of the plugin with ROS at its boundary (adapters/ros/README.md). Nothing here needs a
-// master: what is wrong is said before one is looked for.
+// master: errors come before one is looked for.
 #include <gtest/gtest.h>
 
 #include "served.hpp"

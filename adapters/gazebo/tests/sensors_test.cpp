@@ -23,8 +23,8 @@ using gazebo_frames::turn_F;
 constexpr double kFlight_s = 12.8;
 constexpr double kContacts_s = 12.3;  ///< from here on the vehicle rests on its legs
 
-/// What one sensor said and when, by the world's clock.
-struct Said {
+/// A reading of one sensor, by the world's clock.
+struct Reading {
     double time_s = 0.0;
     Vector3 value = Vector3::Zero();
     Vector3 second = Vector3::Zero();
@@ -78,29 +78,29 @@ protected:
 
     /// What is new since the last tick.
     void listen() {
-        hear(*left, said_left, [this] { return Said{0, {left->Range(0), 0, 0}, {}}; });
-        hear(*right, said_right, [this] { return Said{0, {right->Range(0), 0, 0}, {}}; });
-        hear(*imu, said_imu, [this] {
-            return Said{0, turn_F(imu->LinearAcceleration(true)),
-                        turn_F(imu->AngularVelocity(true))};
+        take(*left, left_readings, [this] { return Reading{0, {left->Range(0), 0, 0}, {}}; });
+        take(*right, right_readings, [this] { return Reading{0, {right->Range(0), 0, 0}, {}}; });
+        take(*imu, imu_readings, [this] {
+            return Reading{0, turn_F(imu->LinearAcceleration(true)),
+                           turn_F(imu->AngularVelocity(true))};
         });
-        hear(*force, said_force, [this] { return Said{0, turn_F(force->Force()), {}}; });
+        take(*force, force_readings, [this] { return Reading{0, turn_F(force->Force()), {}}; });
         if (now_s > kContacts_s) {
             legs_W_N.push_back(legs());
         }
     }
     template <class Read>
-    static void hear(gazebo::sensors::Sensor& sensor, std::vector<Said>& said, Read read) {
+    static void take(gazebo::sensors::Sensor& sensor, std::vector<Reading>& readings, Read read) {
         const double time_s = sensor.LastMeasurementTime().Double();
-        if (time_s > 0.0 && (said.empty() || time_s > said.back().time_s)) {
-            Said reading = read();
+        if (time_s > 0.0 && (readings.empty() || time_s > readings.back().time_s)) {
+            Reading reading = read();
             reading.time_s = time_s;
             if (sensor.LastMeasurementTime().Double() == time_s) {  // not torn by its thread
-                said.push_back(reading);
+                readings.push_back(reading);
             }
         }
     }
-    /// What the contact sensors of both tips say, turned into the world.
+    /// The forces of the contact sensors of both tips, turned into the world.
     [[nodiscard]] Vector3 legs() const {
         Vector3 sum = Vector3::Zero();
         for (const auto& sensor : contacts) {
@@ -144,13 +144,13 @@ protected:
     /// @param difference  of a reading, given the one before, from the truth; NaN: not compared
     /// @param rms,largest  what it must stay below
     template <class Difference>
-    static void compare(const char* what, const char* unit, const std::vector<Said>& said,
+    static void compare(const char* what, const char* unit, const std::vector<Reading>& readings,
                         double rms, double largest, Difference difference) {
         double squares = 0.0;
         double most = 0.0;
         std::size_t count = 0;
-        for (std::size_t i = 1; i < said.size(); ++i) {
-            const double d = difference(said[i - 1], said[i]);
+        for (std::size_t i = 1; i < readings.size(); ++i) {
+            const double d = difference(readings[i - 1], readings[i]);
             if (!std::isnan(d)) {
                 squares += d * d;
                 most = std::max(most, std::abs(d));
@@ -159,8 +159,8 @@ protected:
         }
         ASSERT_GT(count, 200u) << what;
         const double root = std::sqrt(squares / static_cast<double>(count));
-        const double rate_Hz =
-            static_cast<double>(said.size() - 1) / (said.back().time_s - said.front().time_s);
+        const double rate_Hz = static_cast<double>(readings.size() - 1) /
+                               (readings.back().time_s - readings.front().time_s);
         fmt::print("{:<28} {:5.1f} Hz  {:5d} readings  RMS {:8.4f}  largest {:8.4f} {}\n", what,
                    rate_Hz, count, root, most, unit);
         EXPECT_LT(root, rms) << what;
@@ -174,7 +174,7 @@ protected:
     std::shared_ptr<gazebo::sensors::ForceTorqueSensor> force;
     std::vector<std::shared_ptr<gazebo::sensors::ContactSensor>> contacts;
     std::vector<Was> was;
-    std::vector<Said> said_left, said_right, said_imu, said_force;
+    std::vector<Reading> left_readings, right_readings, imu_readings, force_readings;
     std::vector<Vector3> legs_W_N;
 };
 
@@ -184,43 +184,46 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
     fly();
 
     const auto range_off = [this](double side) {
-        return [this, side](const Said&, const Said& said) {
-            const Truth* truth = truth_at(said.time_s);
+        return [this, side](const Reading&, const Reading& reading) {
+            const Truth* truth = truth_at(reading.time_s);
             const bool level =
                 truth != nullptr &&
                 std::abs(euler_from_quaternion(truth->base.q_WF).pitch_rad) < radians(45.0);
-            return level ? said.value.x() - range_m(*truth, side) : kNone;
+            return level ? reading.value.x() - range_m(*truth, side) : kNone;
         };
     };
-    compare("LiDAR left", "m", said_left, 0.005, 0.03, range_off(-1.0));
-    compare("LiDAR right", "m", said_right, 0.005, 0.03, range_off(1.0));
-    compare("IMU rates", "rad/s", said_imu, 0.01, 0.2, [this](const Said&, const Said& said) {
-        const Truth* truth = truth_at(said.time_s);
-        return truth != nullptr ? (said.second - truth->base.w_WF_F_rad_s).norm() : kNone;
-    });
+    compare("LiDAR left", "m", left_readings, 0.005, 0.03, range_off(-1.0));
+    compare("LiDAR right", "m", right_readings, 0.005, 0.03, range_off(1.0));
+    compare("IMU rates", "rad/s", imu_readings, 0.01, 0.2,
+            [this](const Reading&, const Reading& reading) {
+                const Truth* truth = truth_at(reading.time_s);
+                return truth != nullptr ? (reading.second - truth->base.w_WF_F_rad_s).norm()
+                                        : kNone;
+            });
 
     // The mean specific force between two readings, from the speeds; off the wall.
-    const auto accelerometer = [this](const Said& before, const Said& said) {
+    const auto accelerometer = [this](const Reading& before, const Reading& reading) {
         const Truth* a = truth_at(before.time_s);
-        const Truth* b = truth_at(said.time_s);
+        const Truth* b = truth_at(reading.time_s);
         if (a == nullptr || b == nullptr || b->cup_status.phase != CupPhase::free) {
             return kNone;
         }
         const Vector3 gravity_W(0.0, 0.0, kGravity_m_s2);
         const Vector3 force_W =
-            (b->base.v_WF_W_m_s - a->base.v_WF_W_m_s) / (said.time_s - before.time_s) - gravity_W;
-        return (said.value - b->base.q_WF.conjugate() * force_W).norm();
+            (b->base.v_WF_W_m_s - a->base.v_WF_W_m_s) / (reading.time_s - before.time_s) -
+            gravity_W;
+        return (reading.value - b->base.q_WF.conjugate() * force_W).norm();
     };
-    compare("IMU specific force", "m/s^2", said_imu, 0.02, 0.2, accelerometer);
+    compare("IMU specific force", "m/s^2", imu_readings, 0.02, 0.2, accelerometer);
 
-    // Gazebo's sensor tells what is put on the joint from outside: spring, damper and stops, all of
-    // which the plant works out.
-    const auto slider = [this](const Said&, const Said& said) {
-        const Truth* truth = truth_at(said.time_s);
-        return truth == nullptr ? kNone : said.value.x() - truth->slider.force_N;
+    // Gazebo's sensor reports what is put on the joint from outside: spring, damper and stops, all
+    // of which the plant works out.
+    const auto slider = [this](const Reading&, const Reading& reading) {
+        const Truth* truth = truth_at(reading.time_s);
+        return truth == nullptr ? kNone : reading.value.x() - truth->slider.force_N;
     };
     // Largest at the impact, whose edge is a step wide.
-    compare("force through the slider", "N", said_force, 0.2, 8.0, slider);
+    compare("force through the slider", "N", force_readings, 0.2, 8.0, slider);
 
     Vector3 heard_N = Vector3::Zero();
     for (const Vector3& legs_N : legs_W_N) {

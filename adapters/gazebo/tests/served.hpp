@@ -14,7 +14,7 @@ struct Ended {
     std::string text;  ///< both outputs
 };
 
-/// gzserver on a world whose body carries the plugin, beside a ball that moves.
+/// gzserver on a world whose body carries the plugin, next to a ball that moves.
 [[nodiscard]] Ended serve(const std::string& library, const std::string& inside,
                           const std::string& limit_s = "30", const std::string& engine = "ode");
 

@@ -46,7 +46,7 @@ void set_environment() {
     ::setenv("GAZEBO_MASTER_URI", master.c_str(), 1);
     ::setenv("GAZEBO_IP", "127.0.0.1", 1);
     ::setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
-    ::setenv("ALSOFT_DRIVERS", "null", 1);  // it has no sound, and need not say so
+    ::setenv("ALSOFT_DRIVERS", "null", 1);  // it has no sound: no warnings about it
 }
 
 GazeboServer::GazeboServer(const std::string& world_sdf) {

@@ -8,7 +8,7 @@
 
 namespace limpet::gazebo11 {
 
-/// Gazebo's server in this process: gzserver without its main(), a world stepped as asked. One a
+/// Gazebo's server in this process: gzserver without its main(), a world stepped by calls. One a
 /// process; CTest runs each test in a process of its own.
 class GazeboServer {
 public:
@@ -37,7 +37,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// A server that this process starts has a port of its own, asks for no models elsewhere, and is
+/// A server that this process starts has a port of its own, fetches no models, and is
 /// silent.
 void set_environment();
 

@@ -244,7 +244,7 @@ TEST_F(ACompliantCup, TopicsSwitchThePumpAndTellPressureAndState) {
     ASSERT_TRUE(bench.attaches());
     gazebo::msgs::Int off;
     off.set_data(0);
-    // The transport has threads of its own: it is asked until it has come through.
+    // The transport has separate threads: the request is repeated until it has arrived.
     int tries = 0;
     for (; tries < 2000 && bench.phase() != CupPhase::unsealing; ++tries) {
         pump->Publish(off);

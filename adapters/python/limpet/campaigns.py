@@ -102,7 +102,7 @@ def campaign(wanted: Union[str, os.PathLike, None] = None, *,
     made = {"scenario": scenario, "vary": vary, "changes": changes, "runs": runs, "seed": seed, "success": success}
     given = [name for name, value in made.items() if value is not None]
     if wanted is not None and given:
-        raise _core.InputError(f"campaign(): {os.fspath(wanted)} says {', '.join(given)} itself; give its name alone")
+        raise _core.InputError(f"campaign(): {os.fspath(wanted)} sets {', '.join(given)} itself; give its name alone")
     with tempfile.TemporaryDirectory() as scratch:
         file = os.fspath(wanted) if wanted is not None else _write_campaign(
             Path(scratch), scenario, vary or {}, changes or {}, 1 if runs is None else runs,

@@ -54,8 +54,8 @@ def fly(scenario: Union[str, os.PathLike, _core.Scenario], changes: Optional[Cha
     autopilot an object with control(estimate, setpoint, vehicle, time_s, dt_s, memory) ->
               (thrust, torque) or a command for each rotor, 0..1
     cup       an object with next_Pa(air, memory) -> pressure after the step [Pa]
-    A station of yours has no state of its own: `memory` are numbers of the flight, as many as its
-    `memory_size` says, so that flights can be saved and branched."""
+    Your station keeps no state itself: `memory` holds numbers of the flight, as many as its
+    `memory_size`, so that flights can be saved and branched."""
     flight = _core.Flight(load(scenario, changes, seed=seed), run, guidance=guidance,
                           autopilot=autopilot, cup=cup)
     if record is not None:

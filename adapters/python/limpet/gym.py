@@ -75,12 +75,19 @@ except ImportError:  # as much of it as is used here
         def contains(self, x: Any) -> bool:
             return bool(np.all(x >= self.low) and np.all(x <= self.high))
 
+
+
+def _box(most: float, *shape: int) -> Any:
+    """From -most to most."""
+    return Box(np.full(shape, -most, np.float32), np.full(shape, most, np.float32), dtype=np.float32)
+
+
 TICKS = 20  # of a decision: 50 Hz, as the built-in guidance decides
 ATTACHED = 3.0  # of the channel cup_phase
 
 
 class Task:
-    """What an environment asks. Observations and set-points are linear in channels and actions, so
+    """An environment's task. Observations and set-points are linear in channels and actions, so
     that a whole vector of them is a few operations."""
 
     kind = "velocity"
@@ -106,8 +113,8 @@ FORCE = ("measured_force_N", 0.0, 0.1)
 
 
 class Dock(Task):
-    """From 1.2 m before a wall of porous concrete, whose heading, lean and friction nobody tells: so
-    that the cup seals and holds.
+    """From 1.2 m before a wall of porous concrete, whose heading, lean and friction are unknown:
+    the cup is to seal and hold.
 
     action       forward 0..2 m/s, right and down -0.4..0.4 m/s of the heading, turn -0.5..0.5 rad/s
     observation  LiDARs left, right [m]; estimated velocity forward, right, down [m/s], roll, pitch
@@ -143,7 +150,7 @@ class Dock(Task):
 
 class Swing(Task):
     """On the cup, level, the pump just off: keep still for the seconds until the pressure lets go.
-    The motors are slow, so that the autopilot's own ways swing (scenario slow_motors_metal).
+    The motors are slow, so that the built-in autopilot swings (scenario slow_motors_metal).
 
     action       pitch -12..12 deg, thrust +-0.2 about that which carries the weight
     observation  estimated pitch [0.1 rad] and pitch rate [rad/s], slider force [10 N], vacuum [100 hPa]
@@ -161,7 +168,7 @@ class Swing(Task):
         flight = _core.Flight(self.scenario)
         while flight.tick() and not any(event.name == "pump_off" for event in flight.events):
             pass
-        hover = flight.setpoint.thrust  # what guidance asks for there
+        hover = flight.setpoint.thrust  # what guidance commands there
         if flight.ended or hover is None:
             raise _core.InputError(f"{self.scenario.name}: comes to no release to wait for")
         self.moment = flight.save()
@@ -179,23 +186,17 @@ class Swing(Task):
 
 class VectorFlights(_VectorEnv):
     """n environments of one task that step together; one that is over begins anew in the same step,
-    which then says where it ended in info["final_obs"], of those in info["_final_obs"]. reset(seed): environment i draws from
-    (seed, i)."""
+    whose info["final_obs"] is where it ended, of those in info["_final_obs"]. reset(seed): environment i
+    draws from (seed, i)."""
 
     metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": SAME_STEP}
 
     def __init__(self, task: Task, num_envs: int, jobs: Optional[int] = None):
         self.task, self.num_envs = task, num_envs
         observed, acted = len(task.seen), len(task.acts_on)
-        self.single_observation_space = Box(np.full(observed, -np.inf, np.float32),
-                                            np.full(observed, np.inf, np.float32), dtype=np.float32)
-        self.single_action_space = Box(-np.ones(acted, np.float32), np.ones(acted, np.float32),
-                                       dtype=np.float32)
+        self.single_observation_space, self.observation_space = _box(np.inf, observed), _box(np.inf, num_envs, observed)
+        self.single_action_space, self.action_space = _box(1.0, acted), _box(1.0, num_envs, acted)
         wide = (num_envs, 1)
-        self.observation_space = Box(np.tile(self.single_observation_space.low, wide),
-                                     np.tile(self.single_observation_space.high, wide), dtype=np.float32)
-        self.action_space = Box(np.tile(self.single_action_space.low, wide),
-                                np.tile(self.single_action_space.high, wide), dtype=np.float32)
         names = [name for name, _, _ in task.seen]
         self.flights = _core.Flights(num_envs, jobs or os.cpu_count() or 1, [*names, *task.judged])
         self._zero: np.ndarray = np.tile([zero for _, zero, _ in task.seen], wide)
@@ -204,7 +205,7 @@ class VectorFlights(_VectorEnv):
         columns = list(task.acts_on)
         self._acts_on = slice(columns[0], columns[-1] + 1, columns[1] - columns[0] if acted > 1 else 1)
         self._middle, self._span = np.array([task.acted[k] for k in columns]).T
-        self._told = np.tile([*(middle for middle, _ in task.acted), float(task.pump_on), 0.0], wide)
+        self._setpoints = np.tile([*(middle for middle, _ in task.acted), float(task.pump_on), 0.0], wide)
         self._seen: np.ndarray = np.zeros((num_envs, observed + len(task.judged)))
         self.steps = np.zeros(num_envs, int)
         self.random: list[np.random.Generator] = []
@@ -212,8 +213,8 @@ class VectorFlights(_VectorEnv):
     def setpoints(self, actions: Any) -> np.ndarray:
         """(n, 6) as Flights.step() takes them, the same array each time."""
         wanted = np.minimum(np.maximum(np.asarray(actions, float).reshape(self.num_envs, -1), -1.0), 1.0)
-        self._told[:, self._acts_on] = wanted * self._span + self._middle
-        return self._told
+        self._setpoints[:, self._acts_on] = wanted * self._span + self._middle
+        return self._setpoints
 
     def _observation(self) -> np.ndarray:
         return ((self._seen[:, :len(self._scale)] - self._zero) * self._scale).astype(np.float32)
@@ -306,9 +307,7 @@ class Mission(_Env):
 
     def __init__(self, scenario: str = "perch_concrete", changes: Optional[Mapping[str, Any]] = None):
         self.scenario = load(scenario, changes)
-        self.observation_space = Box(-np.ones(3, np.float32), np.ones(3, np.float32), dtype=np.float32)
-        count = len(MISSION_KEYS)
-        self.action_space = Box(-np.ones(count, np.float32), np.ones(count, np.float32), dtype=np.float32)
+        self.observation_space, self.action_space = _box(1.0, 3), _box(1.0, len(MISSION_KEYS))
 
     def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict]:
         super().reset(seed=seed)

@@ -22,7 +22,7 @@ PANELS = (
 def plot(result: _core.Result, *others: _core.Result, events: bool = True,
          panels: Sequence[tuple[Sequence[str], str, float]] = PANELS, file: Optional[str] = None) -> Any:
     """Force, pressure, attitude and thrust of a flight against time, its events numbered and named
-    beside; further flights are drawn over it, dashed. Returns matplotlib's figure; with `file` it
+    in a list; further flights are drawn over it, dashed. Returns matplotlib's figure; with `file` it
     is written too."""
     import matplotlib.pyplot as plt
 
@@ -82,9 +82,9 @@ def plot_campaign(result: CampaignResult, key: str, bins: int = 10, *, axis: Any
                                + ", ".join(result.runs.dtype.names or ()))
     figure, axis = plt.subplots(figsize=(6, 4), layout="constrained") if axis is None else (axis.figure, axis)
     values = result.runs[key]
-    own = np.unique(values)
-    if values.dtype.kind == "U" or len(own) <= 2 * bins:
-        groups = [(value, values == value) for value in own]
+    distinct = np.unique(values)
+    if values.dtype.kind == "U" or len(distinct) <= 2 * bins:
+        groups = [(value, values == value) for value in distinct]
     else:
         edges = np.linspace(values.min(), values.max(), bins + 1)
         place = np.clip(np.digitize(values, edges) - 1, 0, bins - 1)

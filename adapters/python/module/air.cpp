@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace limpet::python {
 namespace {
@@ -11,11 +12,10 @@ namespace {
 std::atomic<int> in_the_air = 0;
 std::atomic<bool> ends = false;
 
-/// At the interpreter's exit, which runs this with the GIL and all that Python has still there.
+/// At the interpreter's exit, which runs this with the GIL, while all of Python is still there.
 void wait_until_all_are_down() {
     constexpr auto kLookAgain = std::chrono::milliseconds(1);
-    constexpr auto kLongest =
-        std::chrono::seconds(60);  // a station of somebody's may wait for ever
+    constexpr auto kLongest = std::chrono::seconds(60);  // a user's station may wait for ever
     ends = true;
     const auto until = std::chrono::steady_clock::now() + kLongest;
     const py::gil_scoped_release land;
@@ -27,7 +27,7 @@ void wait_until_all_are_down() {
 }  // namespace
 
 InTheAir::InTheAir() {
-    if (ends) {  // under the GIL: whoever passes here is counted before the exit looks
+    if (ends) {  // under the GIL: a flight that begins is counted before the exit looks
         throw InterpreterEnds();
     }
     ++in_the_air;
@@ -45,7 +45,7 @@ void add_air() {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) {
-                std::rethrow_exception(thrown);
+                std::rethrow_exception(std::move(thrown));
             }
         } catch (const InterpreterEnds&) {
             PyErr_SetString(PyExc_SystemExit, "the interpreter ends");

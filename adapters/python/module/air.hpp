@@ -5,12 +5,12 @@
 
 namespace limpet::python {
 
-/// The interpreter ends: whoever flies comes down. Becomes Python's SystemExit.
+/// The interpreter ends: flights in progress end too. Becomes Python's SystemExit.
 struct InterpreterEnds {};
 
-/// This thread will let go of the GIL and take it again. While the interpreter is torn down it ends
-/// whoever takes it, through frames that may not be left so; so it waits at its exit, a minute at
-/// most, until nobody is in the air (add_air), and nobody takes off any more.
+/// A flight in progress on this thread, which releases the GIL and takes it again. An interpreter
+/// that is torn down ends a thread that takes the GIL, without unwinding its frames. So the exit
+/// waits until no flight is in progress, a minute at most (add_air), and no flight begins any more.
 class InTheAir {
 public:
     /// With the GIL.
@@ -21,7 +21,7 @@ public:
     InTheAir& operator=(const InTheAir&) = delete;
 };
 
-/// The same, and Python goes on meanwhile.
+/// The same, without the GIL: Python goes on meanwhile.
 class FlyFreely {
 private:
     InTheAir in_the_air_;
@@ -31,7 +31,7 @@ private:
 /// Registers what waits for them, and what becomes of InterpreterEnds.
 void add_air();
 
-/// @return whether those in the air are to come down; asked often, without the GIL
+/// @return whether flights in progress are to end; called often, without the GIL
 [[nodiscard]] bool interpreter_ends();
 
 }  // namespace limpet::python

@@ -11,7 +11,6 @@
 #include <future>
 
 #include "air.hpp"
-#include "limpet/campaign/campaign_file.hpp"
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
@@ -26,8 +25,8 @@ constexpr auto kLookAgain = std::chrono::milliseconds(50);
 
 using OnProgress = std::function<void(std::uint32_t finished, std::uint32_t runs)>;
 
-/// Whoever leaves early, by Ctrl-C or what a callback raised, waits for those in the air, and lets
-/// Python go on meanwhile. At the interpreter's end they are dropped.
+/// When a campaign ends early, by Ctrl-C or an exception of the callback: waits for the flights in
+/// progress, without the GIL. At the interpreter's end they are dropped.
 struct LandsFirst {
     ~LandsFirst() {
         if (!flown.valid()) {
@@ -40,7 +39,7 @@ struct LandsFirst {
             while (flown.wait_for(kLookAgain) != std::future_status::ready) {
                 break_off = interpreter_ends();
             }
-        } catch (...) {  // whoever leaves has said why
+        } catch (...) {  // another exception is on its way
         }
     }
     std::atomic<bool>& stop;
@@ -78,11 +77,11 @@ void make_folder(const std::filesystem::path& folder) {
 
 bool bears_out_named(const std::string& truth, const std::string& outcome) {
     const auto end = true_end_from(truth);
-    const auto told = outcome_from(outcome);
-    return end && told && bears_out(*end, *told);
+    const auto reported = outcome_from(outcome);
+    return end && reported && bears_out(*end, *reported);
 }
 
-/// Flies the runs that are missing, on other threads, while this one listens to Ctrl-C.
+/// Flies the runs that are missing, on other threads, while this one waits for Ctrl-C.
 /// @return the file of results
 std::filesystem::path run_campaign(const std::string& wanted, const std::filesystem::path& folder,
                                    int jobs, bool resume, const OnProgress& on_progress) {

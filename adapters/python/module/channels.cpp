@@ -28,6 +28,10 @@ double along(const Flight& flight, double forward, double right) {
 double yes(bool is) {
     return is ? 1.0 : 0.0;
 }
+template <std::size_t kRotor>
+double rotor(const Flight& flight) {
+    return flight.rotors().command[kRotor];
+}
 
 }  // namespace
 
@@ -82,21 +86,32 @@ const std::vector<Channel>& channel_table() {
          [](F f) { return f.readings().lidar_left.value.distance_m; }},
         {"lidar_right_m", "0: no echo",
          [](F f) { return f.readings().lidar_right.value.distance_m; }},
-        {"rotor_command_0", "0..1 in the order of the vehicle file",
-         [](F f) { return f.rotors().command[0]; }},
-        {"rotor_command_1", "", [](F f) { return f.rotors().command[1]; }},
-        {"rotor_command_2", "", [](F f) { return f.rotors().command[2]; }},
-        {"rotor_command_3", "", [](F f) { return f.rotors().command[3]; }},
-        {"rotor_command_4", "0: there is none", [](F f) { return f.rotors().command[4]; }},
-        {"rotor_command_5", "", [](F f) { return f.rotors().command[5]; }},
-        {"rotor_command_6", "", [](F f) { return f.rotors().command[6]; }},
-        {"rotor_command_7", "", [](F f) { return f.rotors().command[7]; }},
-        {"rotor_command_8", "", [](F f) { return f.rotors().command[8]; }},
-        {"rotor_command_9", "", [](F f) { return f.rotors().command[9]; }},
-        {"rotor_command_10", "", [](F f) { return f.rotors().command[10]; }},
-        {"rotor_command_11", "", [](F f) { return f.rotors().command[11]; }},
+        {"rotor_command_0", "0..1 in the order of the vehicle file", rotor<0>},
+        {"rotor_command_1", "", rotor<1>},
+        {"rotor_command_2", "", rotor<2>},
+        {"rotor_command_3", "", rotor<3>},
+        {"rotor_command_4", "0: there is none", rotor<4>},
+        {"rotor_command_5", "", rotor<5>},
+        {"rotor_command_6", "", rotor<6>},
+        {"rotor_command_7", "", rotor<7>},
+        {"rotor_command_8", "", rotor<8>},
+        {"rotor_command_9", "", rotor<9>},
+        {"rotor_command_10", "", rotor<10>},
+        {"rotor_command_11", "", rotor<11>},
     };
     return table;
+}
+
+std::size_t channel_index(const std::string& name) {
+    const auto& table = channel_table();
+    std::string names;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (name == table[i].name) {
+            return i;
+        }
+        names += std::string(names.empty() ? "" : ", ") + table[i].name;
+    }
+    throw py::key_error("\"" + name + "\": no channel; there are " + names);
 }
 
 void ChannelLog::sample(const Flight& flight) {

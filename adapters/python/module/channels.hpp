@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limpet/flight.hpp"
+#include "module.hpp"
 
 namespace limpet::python {
 
@@ -15,6 +16,8 @@ struct Channel {
     double (*of)(const Flight& flight);
 };
 [[nodiscard]] const std::vector<Channel>& channel_table();
+/// @throws py::key_error naming those that there are
+[[nodiscard]] std::size_t channel_index(const std::string& name);
 
 /// A column a channel, a row a sample.
 struct ChannelLog {

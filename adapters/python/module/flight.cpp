@@ -16,26 +16,11 @@ namespace limpet::python {
 namespace {
 
 /// A flight that has been flown, with its channels.
-struct Flown {
-    Result result;
+struct Flown : Result {
     ChannelLog log;
 };
 
-std::size_t channel_index(const std::string& name) {
-    const auto& table = channel_table();
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        if (name == table[i].name) {
-            return i;
-        }
-    }
-    std::string names;
-    for (const Channel& channel : table) {
-        names += names.empty() ? channel.name : std::string(", ") + channel.name;
-    }
-    throw py::key_error("\"" + name + "\": no channel; there are " + names);
-}
-
-py::dict metrics_of(const Result& result) {
+py::dict metrics_of(const Flown& result) {
     py::dict metrics;
     for (const Metric& metric : result.metrics) {
         metrics[py::str(metric.name)] = metric.value;
@@ -70,9 +55,7 @@ Tick tick_of(const Flight& flight) {
     return std::llround(flight.time_s() * kTicksPerSecond);
 }
 
-/// @param rate_Hz  of the channels' samples: the first instant at which the loop looks at the
-/// bodies
-///                 in each interval
+/// @param rate_Hz  of the channels' samples: the first step of the loop in each interval
 std::shared_ptr<Flown> fly(Flight& flight, int rate_Hz) {
     if (rate_Hz < 1 || rate_Hz > kTicksPerSecond) {
         throw py::value_error("rate_Hz: 1..1000");
@@ -88,11 +71,11 @@ std::shared_ptr<Flown> fly(Flight& flight, int rate_Hz) {
             next += every * ((tick_of(flight) - next) / every + 1);
         }
     }
-    flown->result = flight.result();
+    static_cast<Result&>(*flown) = flight.result();
     return flown;
 }
 
-/// A flight as Python steps it: several looks of the loop at once.
+/// A flight as Python steps it: several steps of the loop at once.
 class Stepped final : public Flight {
 public:
     using Flight::Flight;
@@ -149,28 +132,22 @@ void add_result(py::module_& module) {
         module, "Result",
         "A flight that has been flown. r[\"cup_pressure_Pa\"] "
         "is a channel against r[\"time_s\"], read-only, not "
-        "copied; channels() tells them.")
+        "copied; channels() lists them.")
         .def_property_readonly(
-            "outcome", [](const Flown& f) { return std::string(to_string(f.result.outcome)); },
+            "outcome", [](const Flown& f) { return std::string(to_string(f.outcome)); },
             "released, perched, failed_to_seal, crashed, ...")
         .def_property_readonly(
-            "true_end", [](const Flown& f) { return std::string(to_string(f.result.true_end)); },
+            "true_end", [](const Flown& f) { return std::string(to_string(f.true_end)); },
             "what the truth shows: on_wall, hovering, adrift, standing, fallen, moving, mounted")
-        .def_property_readonly(
-            "success", [](const Flown& f) { return f.result.success; },
-            "perched or released, and so by the truth")
-        .def_property_readonly("reason", [](const Flown& f) { return f.result.reason; })
-        .def_property_readonly(
-            "simulated_s", [](const Flown& f) { return f.result.simulated_s; }, "[s]")
-        .def_property_readonly(
-            "attempts", [](const Flown& f) { return f.result.attempts; }, "docking runs")
-        .def_property_readonly("events", [](const Flown& f) { return f.result.events; })
-        .def_property_readonly(
-            "metrics", [](const Flown& f) { return metrics_of(f.result); },
-            "{name with unit: number}; NaN: did not come to pass")
-        .def_property_readonly(
-            "state_hash", [](const Flown& f) { return f.result.state_hash; },
-            "digest of the trajectory: equal bits, equal hash")
+        .def_readonly("success", &Flown::success, "perched or released, and so by the truth")
+        .def_readonly("reason", &Flown::reason)
+        .def_readonly("simulated_s", &Flown::simulated_s, "[s]")
+        .def_readonly("attempts", &Flown::attempts, "docking runs")
+        .def_readonly("events", &Flown::events)
+        .def_property_readonly("metrics", metrics_of,
+                               "{name with unit: number}; NaN: did not come to pass")
+        .def_readonly("state_hash", &Flown::state_hash,
+                      "digest of the trajectory: equal bits, equal hash")
         .def("__getitem__",
              [](const py::object& self, const std::string& name) {
                  const auto& flown = self.cast<const Flown&>();
@@ -185,8 +162,8 @@ void add_result(py::module_& module) {
                  return names;
              })
         .def("__repr__", [](const Flown& f) {
-            return "<limpet.Result " + std::string(to_string(f.result.outcome)) + " after " +
-                   std::to_string(f.result.simulated_s) + " s>";
+            return "<limpet.Result " + std::string(to_string(f.outcome)) + " after " +
+                   std::to_string(f.simulated_s) + " s>";
         });
 }
 
@@ -212,9 +189,8 @@ void add_flight_class(py::module_& module) {
         .def("record", &Flight::record, py::arg("file"),
              "Writes all signals from here on into an MCAP file.")
         .def("tick", &Stepped::ticks, py::arg("count") = 1,
-             "So many milliseconds of the loop, to the next instant at which it looks at the "
-             "bodies. "
-             "Returns whether the flight goes on.")
+             "Flies so many milliseconds, rounded up to a step of the loop. Returns whether the "
+             "flight goes on.")
         .def(
             "fly", [](Stepped& flight, int rate_Hz) { return fly(flight, rate_Hz); },
             py::arg("rate_Hz") = 100, "To the end; channels at this rate.")

@@ -11,7 +11,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "What limpet's Python package is made of; use limpet itself.";
     module.attr("__version__") = std::string(library_version());
     py::register_exception<InputError>(module, "InputError", PyExc_ValueError).doc() =
-        "Input that cannot be used: one line that says where, what, and what is allowed.";
+        "Input that cannot be used: one line with the place, the value and what is allowed.";
     py::register_exception<InternalError>(module, "InternalError", PyExc_RuntimeError).doc() =
         "A fault of Limpet's: please report it.";
     python::add_air();

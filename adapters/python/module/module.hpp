@@ -23,7 +23,7 @@ void add_flight(py::module_& module);
 void add_vector(py::module_& module);
 void add_campaign(py::module_& module);
 
-/// x, y, z as an array of its own.
+/// x, y, z as a new array.
 [[nodiscard]] inline py::array_t<double> array_of(const Vector3& v) {
     return py::array_t<double>(3, v.data());
 }

@@ -152,6 +152,10 @@ void add_readings(py::module_& module) {
             [](const Readings& r) { return array_of(r.motion_capture.value.p_WB_m); }, "[m]");
 }
 
+Setpoint setpoint(const decltype(Setpoint::motion)& motion, bool pump_on, bool valve_open) {
+    return {.motion = motion, .armed = true, .pump_on = pump_on, .valve_open = valve_open};
+}
+
 void add_setpoints(py::module_& module) {
     py::class_<Setpoint>(module, "Setpoint",
                          "The commands of guidance to autopilot and perching mechanism.")
@@ -159,13 +163,10 @@ void add_setpoints(py::module_& module) {
             "position",
             [](const py::object& p_W_m, double yaw_rad, const py::object& v_W_m_s, bool pump_on,
                bool valve_open) {
-                return Setpoint{
-                    .motion =
-                        PositionSetpoint{vector_from(p_W_m, "p_W_m"), finite(yaw_rad, "yaw_rad"),
-                                         vector_from(v_W_m_s, "feedforward_v_W_m_s")},
-                    .armed = true,
-                    .pump_on = pump_on,
-                    .valve_open = valve_open};
+                return setpoint(
+                    PositionSetpoint{vector_from(p_W_m, "p_W_m"), finite(yaw_rad, "yaw_rad"),
+                                     vector_from(v_W_m_s, "feedforward_v_W_m_s")},
+                    pump_on, valve_open);
             },
             py::arg("p_W_m"), py::arg("yaw_rad") = 0.0,
             py::arg("feedforward_v_W_m_s") = py::make_tuple(0.0, 0.0, 0.0),
@@ -174,23 +175,18 @@ void add_setpoints(py::module_& module) {
         .def_static(
             "velocity",
             [](const py::object& v_W_m_s, double yaw_rad, bool pump_on, bool valve_open) {
-                return Setpoint{
-                    .motion = VelocitySetpoint{vector_from(v_W_m_s, "v_W_m_s"),
-                                               finite(yaw_rad, "yaw_rad"), Vector3::Zero()},
-                    .armed = true,
-                    .pump_on = pump_on,
-                    .valve_open = valve_open};
+                return setpoint(VelocitySetpoint{vector_from(v_W_m_s, "v_W_m_s"),
+                                                 finite(yaw_rad, "yaw_rad"), Vector3::Zero()},
+                                pump_on, valve_open);
             },
             py::arg("v_W_m_s"), py::arg("yaw_rad") = 0.0, py::arg("pump_on") = false,
             py::arg("valve_open") = false, "Fly with this velocity [m/s] and heading [rad].")
         .def_static(
             "attitude",
             [](const py::object& q_WB, double thrust, bool pump_on, bool valve_open) {
-                return Setpoint{.motion = AttitudeSetpoint{quaternion_from(q_WB, "q_WB"),
-                                                           finite(thrust, "thrust")},
-                                .armed = true,
-                                .pump_on = pump_on,
-                                .valve_open = valve_open};
+                return setpoint(
+                    AttitudeSetpoint{quaternion_from(q_WB, "q_WB"), finite(thrust, "thrust")},
+                    pump_on, valve_open);
             },
             py::arg("q_WB"), py::arg("thrust"), py::arg("pump_on") = false,
             py::arg("valve_open") = false,

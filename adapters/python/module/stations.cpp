@@ -12,7 +12,7 @@
 namespace limpet::python {
 namespace {
 
-/// A class's own attribute that fails is told; one that is not there means none.
+/// An attribute that is not there means 0; the error of one that fails is passed on.
 std::size_t memory_size_of(const py::object& object) {
     constexpr const char* kName = "memory_size";
     if (!py::hasattr(py::type::of(object), kName) && !py::hasattr(object, kName)) {
@@ -31,17 +31,18 @@ std::size_t memory_size_of(const py::object& object) {
 }
 
 /// What a station has returned.
-/// @throws py::type_error saying who returned what in whose place
+/// @throws py::type_error naming the method, the type that it returned and what it should
 template <class T>
-T taken(const py::object& said, const char* method, const char* wanted) {
+T taken(const py::object& returned, const char* method, const char* wanted) {
     const auto refuse = [&]() -> T {
         throw py::type_error(std::string(method) + "() returned " +
-                             std::string(py::str(py::type::of(said).attr("__name__"))) + ", not " +
-                             wanted);
+                             std::string(py::str(py::type::of(returned).attr("__name__"))) +
+                             ", not " + wanted);
     };
     try {
-        return std::is_same_v<T, py::tuple> && PySequence_Check(said.ptr()) == 0 ? refuse()
-                                                                                 : said.cast<T>();
+        return std::is_same_v<T, py::tuple> && PySequence_Check(returned.ptr()) == 0
+                   ? refuse()
+                   : returned.cast<T>();
     } catch (const py::cast_error&) {
         return refuse();
     } catch (const py::reference_cast_error&) {  // of None
@@ -49,8 +50,8 @@ T taken(const py::object& said, const char* method, const char* wanted) {
     }
 }
 
-/// The flight's own numbers while a station may write them: an array of its own, which whoever
-/// keeps it may keep.
+/// The flight's numbers while a station may write them: a separate array, so that a station may
+/// keep it.
 class Lent {
 public:
     explicit Lent(std::span<double> memory)
@@ -68,10 +69,12 @@ private:
     py::array_t<double> array_;
 };
 
-/// A Python object that flights hold. They may let go of it on any thread.
-class Held {
+/// A station that is a Python object. Flights may release it on any thread.
+template <class Station>
+class PythonStation : public Station {
 public:
-    Held(py::object object, const char* method) : object_(std::move(object)) {
+    PythonStation(py::object object, const char* method)
+        : object_(std::move(object)), method_(method) {
         if (!py::hasattr(object_, method)) {
             throw py::type_error(std::string(py::str(py::type::of(object_))) + " has no method " +
                                  method + "()");
@@ -82,21 +85,29 @@ public:
         }
         memory_size_ = memory_size_of(object_);
     }
-    Held(const Held&) = delete;
-    Held& operator=(const Held&) = delete;
-    ~Held() {
+    ~PythonStation() override {
         const PyGILState_STATE gil = PyGILState_Ensure();
         object_.release().dec_ref();
         PyGILState_Release(gil);
     }
-    [[nodiscard]] std::size_t memory_size() const { return memory_size_; }
+    [[nodiscard]] std::size_t memory_size() const override { return memory_size_; }
+
+protected:
+    /// With the GIL. Signals are copied: Python may keep them.
+    /// @param memory  the last argument
     template <class... Arguments>
-    [[nodiscard]] py::object call(const char* method, Arguments&&... arguments) const {
-        return object_.attr(method)(std::forward<Arguments>(arguments)...);
+    [[nodiscard]] py::object call(std::span<double> memory, const Arguments&... arguments) const {
+        const Lent lent(memory);
+        py::object returned =
+            object_.attr(method_).template operator()<py::return_value_policy::copy>(arguments...,
+                                                                                     lent.array());
+        lent.take_back();
+        return returned;
     }
 
 private:
     py::object object_;
+    const char* method_;
     std::size_t memory_size_ = 0;
 };
 
@@ -108,23 +119,18 @@ std::string_view kept(const std::string& text) {
     return *texts.insert(text).first;
 }
 
-class PythonGuidance final : public Guidance {
+class PythonGuidance final : public PythonStation<Guidance> {
 public:
-    explicit PythonGuidance(py::object object) : held_(std::move(object), "update") {}
-    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    explicit PythonGuidance(py::object object) : PythonStation(std::move(object), "update") {}
     [[nodiscard]] GuidanceOutput update(const GuidanceInput& input,
                                         std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
-        const Lent lent(memory);
-        const py::object said = held_.call(
-            "update", py::cast(input.readings, py::return_value_policy::copy),
-            py::cast(input.estimate, py::return_value_policy::copy), input.time_s, lent.array());
-        lent.take_back();
+        const py::object returned = call(memory, input.readings, input.estimate, input.time_s);
         constexpr const char* kWanted = "a Setpoint, or (Setpoint, outcome, reason)";
-        if (!py::isinstance<py::tuple>(said)) {
-            return {.setpoint = taken<Setpoint>(said, "update", kWanted)};
+        if (!py::isinstance<py::tuple>(returned)) {
+            return {.setpoint = taken<Setpoint>(returned, "update", kWanted)};
         }
-        const auto all = said.cast<py::tuple>();
+        const auto all = returned.cast<py::tuple>();
         if (all.size() != 3) {
             throw py::value_error(std::string("update() returns ") + kWanted);
         }
@@ -133,38 +139,29 @@ public:
                 .outcome = outcome_named(taken<std::string>(part(1), "update", kWanted)),
                 .reason = kept(taken<std::string>(part(2), "update", kWanted))};
     }
-
-private:
-    Held held_;
 };
 
-class PythonAutopilot final : public Autopilot {
+class PythonAutopilot final : public PythonStation<Autopilot> {
 public:
-    explicit PythonAutopilot(py::object object) : held_(std::move(object), "control") {}
-    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    explicit PythonAutopilot(py::object object) : PythonStation(std::move(object), "control") {}
     [[nodiscard]] AutopilotOutput control(const AutopilotInput& input,
                                           std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
-        const Lent lent(memory);
         const py::object answer =
-            held_.call("control", py::cast(input.estimate, py::return_value_policy::copy),
-                       py::cast(input.setpoint, py::return_value_policy::copy),
-                       py::cast(input.vehicle, py::return_value_policy::copy), input.time_s,
-                       input.dt_s, lent.array());
-        lent.take_back();
+            call(memory, input.estimate, input.setpoint, input.vehicle, input.time_s, input.dt_s);
         const std::size_t rotors = input.vehicle.rotor_p_B_m.size();
         const std::string wanted =
             "(thrust, torque) or a command for each of " + std::to_string(rotors) + " rotors";
-        const py::tuple said = py::isinstance<py::str>(answer)
-                                   ? py::make_tuple(answer)  // whose letters are no commands
-                                   : taken<py::tuple>(answer, "control", wanted.c_str());
+        const py::tuple returned = py::isinstance<py::str>(answer)
+                                       ? py::make_tuple(answer)  // its letters are no commands
+                                       : taken<py::tuple>(answer, "control", wanted.c_str());
         const auto number = [&](std::size_t k) {
-            return taken<double>(py::object(said[k]), "control", wanted.c_str());
+            return taken<double>(py::object(returned[k]), "control", wanted.c_str());
         };
-        if (said.size() == 2) {
-            return {.thrust = number(0), .torque = vector_from(said[1], "torque")};
+        if (returned.size() == 2) {
+            return {.thrust = number(0), .torque = vector_from(returned[1], "torque")};
         }
-        if (said.size() != rotors) {
+        if (returned.size() != rotors) {
             throw py::value_error("control() returns " + wanted);
         }
         AutopilotOutput output;
@@ -174,30 +171,20 @@ public:
         }
         return output;
     }
-
-private:
-    Held held_;
 };
 
-class PythonCup final : public CupPressure {
+class PythonCup final : public PythonStation<CupPressure> {
 public:
-    explicit PythonCup(py::object object) : held_(std::move(object), "next_Pa") {}
-    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    explicit PythonCup(py::object object) : PythonStation(std::move(object), "next_Pa") {}
     [[nodiscard]] double next_Pa(const CupPressureInput& air,
                                  std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
-        const Lent lent(memory);
-        const py::object said =
-            held_.call("next_Pa", py::cast(air, py::return_value_policy::copy), lent.array());
-        lent.take_back();
-        return taken<double>(said, "next_Pa", "a pressure in Pa");
+        const py::object returned = call(memory, air);
+        return taken<double>(returned, "next_Pa", "a pressure in Pa");
     }
-
-private:
-    Held held_;
 };
 
-/// One station an object, so that a branch knows whose memory it has.
+/// One station for each object: a branch of a flight goes on with the same memory.
 template <class Station, class Made>
 std::shared_ptr<const Station> station_of(const py::object& object) {
     static std::map<PyObject*, std::weak_ptr<const Station>> known;  // guarded by the GIL
@@ -254,7 +241,7 @@ void add_stations(py::module_& module) {
         .def_readonly("peel_N_m", &CupPressureInput::peel_N_m,
                       "moment that presses one side of the lip more than the other [N m]")
         .def_readonly("hole_mm2", &CupPressureInput::hole_mm2,
-                      "to the atmosphere, beyond the lip's own leak [mm^2]")
+                      "to the atmosphere, beyond the leak of the lip [mm^2]")
         .def_readonly("leak_growth", &CupPressureInput::leak_growth,
                       "what the seal leaks more than when it was fresh, over that");
 }

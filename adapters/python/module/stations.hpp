@@ -7,7 +7,7 @@
 namespace limpet::python {
 
 /// Python objects as stations of a flight: whatever has the methods
-/// (adapters/python/limpet/_core.pyi says which) will do. None: the scenario's.
+/// (flying.py lists them) will do. None: the scenario's.
 [[nodiscard]] Stations stations_of(const py::object& guidance, const py::object& autopilot,
                                    const py::object& cup);
 

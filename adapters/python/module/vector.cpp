@@ -19,37 +19,31 @@
 namespace limpet::python {
 namespace {
 
-/// Asks for what it was told last.
-class ToldGuidance final : public Guidance {
+/// Commands the latest set-point that was given.
+class GivenSetpoint final : public Guidance {
 public:
     [[nodiscard]] GuidanceOutput update(const GuidanceInput& /*input*/,
                                         std::span<double> /*memory*/) const override {
-        return {.setpoint = said};
+        return {.setpoint = setpoint};
     }
-    Setpoint said;
+    Setpoint setpoint;
 };
 
-/// Many flights that are told their set-points from outside and step together, on several threads.
+/// Many flights that take set-points from outside and step together, on several threads.
 /// Nothing of one depends on another.
 class Flights {
 public:
     Flights(std::size_t count, int jobs, const std::vector<std::string>& channels)
         : seats_(count), jobs_(std::max(1, jobs)) {
         for (const std::string& name : channels) {
-            const auto& table = channel_table();
-            const auto found = std::find_if(table.begin(), table.end(),
-                                            [&](const Channel& c) { return name == c.name; });
-            if (found == table.end()) {
-                throw py::key_error("\"" + name + "\": no channel; channels() tells them");
-            }
-            channels_.push_back(&*found);
+            channels_.push_back(&channel_table()[channel_index(name)]);
         }
     }
 
     /// Another flight at this place.
     void start(std::size_t place, const Scenario& scenario, std::uint32_t run, const Moment* from) {
         Seat& seat = seats_.at(place);
-        seat.guidance = std::make_shared<ToldGuidance>();
+        seat.guidance = std::make_shared<GivenSetpoint>();
         const Stations stations{.guidance = seat.guidance};
         seat.flight.reset();
         if (from != nullptr) {
@@ -57,7 +51,7 @@ public:
         } else {
             seat.flight.emplace(scenario, stations, run);
         }
-        seat.guidance->said = seat.flight->setpoint();
+        seat.guidance->setpoint = seat.flight->setpoint();
     }
 
     /// @param kind     "velocity": forward, right (of the estimated heading), down [m/s], turn
@@ -81,7 +75,7 @@ public:
             if (!std::all_of(row, row + 6, [](double n) { return std::isfinite(n); })) {
                 throw py::value_error("set-points: finite numbers");
             }
-            seats_[i].tell(row, velocity);
+            seats_[i].set(row, velocity);
         }
         const FlyFreely fly_freely;
         fly(ticks);
@@ -114,27 +108,27 @@ public:
 
 private:
     struct Seat {
-        std::shared_ptr<ToldGuidance> guidance;
+        std::shared_ptr<GivenSetpoint> guidance;
         std::optional<Flight> flight;
 
-        void tell(const double* row, bool velocity) {
+        void set(const double* row, bool velocity) {
             if (!flight) {
                 return;
             }
-            Setpoint& said = guidance->said;
+            Setpoint& setpoint = guidance->setpoint;
             const double yaw = euler_from_quaternion(flight->estimate().q_WB).yaw_rad;
             if (velocity) {
                 const double cos = std::cos(yaw), sin = std::sin(yaw);
                 const Vector3 v_W(cos * row[0] - sin * row[1], sin * row[0] + cos * row[1], row[2]);
-                said.motion = VelocitySetpoint{v_W, yaw + row[3], Vector3::Zero()};
+                setpoint.motion = VelocitySetpoint{v_W, yaw + row[3], Vector3::Zero()};
             } else {
-                said.motion =
+                setpoint.motion =
                     AttitudeSetpoint{quaternion_from_euler({row[0], row[1], yaw + row[2]}),
                                      std::clamp(row[3], 0.0, 1.0)};
             }
-            said.armed = true;
-            said.pump_on = row[4] > 0.5;
-            said.valve_open = row[5] > 0.5;
+            setpoint.armed = true;
+            setpoint.pump_on = row[4] > 0.5;
+            setpoint.valve_open = row[5] > 0.5;
         }
     };
 

@@ -48,12 +48,12 @@ protected:
         spinner_ = std::make_unique<::ros::AsyncSpinner>(1, &queue_);
         spinner_->start();
     }
-    void tell(const suction::CupState& state, double time_s) override {
+    void publish(const suction::CupState& state, double time_s) override {
         const ::ros::Time stamp = ros_time(time_s);
         send_from(pressure_, pressure_message({.pressure_Pa = state.status.pressure_Pa}), stamp);
         send_from(state_, cup_message(state), stamp);
     }
-    void tell(const Event& event) override {
+    void publish(const Event& event) override {
         send_from(event_, event_message(event), ros_time(event.time_s));
     }
 

@@ -68,7 +68,7 @@ HostClock clock_of(gazebo::physics::World& world) {
 ///                      behind [s]; 0: never                                      2
 ///   time_limit_s       of the flight [s]                                         the scenario's
 ///
-/// What it flies it tells the nodes by the parameter /limpet/flight.
+/// The nodes read what it flies from the parameter /limpet/flight.
 class RosVehiclePlugin final : public gazebo11::VehiclePlugin {
 public:
     ~RosVehiclePlugin() override { end_flight(); }
@@ -90,7 +90,7 @@ protected:
             fail(*node, "flies with autopilot builtin only: a PX4 has its MAVROS");
         }
         join_ros("LimpetRosVehiclePlugin");
-        tell_flight(read_arguments(parameters));
+        publish_flight(read_arguments(parameters));
         vehicle_ = std::make_unique<RosVehicle>(flight.scenario, options, clock_of(world()));
         flight.watch.on_tick = [this](simulation::Flight& flown, const guidance::EventList&) {
             vehicle_->show(flown);

@@ -8,8 +8,8 @@
 namespace limpet::ros {
 namespace {
 
-/// Farther from the wall than this the lip is told of kFar_Hz times a second; while it hangs there
-/// attached kAttached_Hz times.
+/// Farther from the wall than this the lip is reported kFar_Hz times a second; while it is attached
+/// kAttached_Hz times.
 constexpr double kNear_m = 0.05;
 constexpr int kFar_Hz = 100;
 constexpr int kAttached_Hz = 250;
@@ -30,7 +30,7 @@ bool tells_more(const limpet_ros::CupContact& now, const limpet_ros::CupContact&
 
 }  // namespace
 
-void ApartLip::hear(const limpet_ros::CupState& answer) {
+void ApartLip::receive(const limpet_ros::CupState& answer) {
     if (answer.contact < next_) {
         answer_ = answer;
     }
@@ -63,7 +63,8 @@ void ApartLip::collect(const limpet_ros::CupContact& now, CupPhase phase, double
     near_ = phase != CupPhase::free || std::abs(now.gap_m) < kNear_m;
 }
 
-/// What was told, where it knows of all that happened here. Lifting off and touching are seen here.
+/// Applies the latest answer where it follows the latest report. Lifting off and touching are found
+/// here.
 std::optional<Event> ApartLip::obey(suction::CupState& state, double time_s) {
     state.mean_pressure_Pa = answer_.mean_pressure_Pa;
     state.status.pressure_Pa = answer_.pressure_Pa;
@@ -74,8 +75,8 @@ std::optional<Event> ApartLip::obey(suction::CupState& state, double time_s) {
     }
     const CupPhase before = state.status.phase;
     state.status.seal_threshold_N = answer_.seal_threshold_N;
-    const auto told = static_cast<CupPhase>(answer_.phase);
-    state.status.phase = suction::is_sealed(told) ? told : CupPhase::touching;
+    const auto phase = static_cast<CupPhase>(answer_.phase);
+    state.status.phase = suction::is_sealed(phase) ? phase : CupPhase::touching;
     if (suction::is_sealed(state.status.phase) && !suction::is_sealed(before)) {
         state.let_go_said = false;
     }
@@ -109,7 +110,7 @@ suction::CupOutput ApartLip::step(const suction::CupModel& model, suction::CupSt
     output.wrench_W = load_cup(model, state, surface, input, lip);
     collect(now, state.status.phase, input.time_s);
     if (lets_go) {
-        barrier_ = next_;  // the number under which this will be told
+        barrier_ = next_;  // the number of the report of this
     }
     return output;
 }

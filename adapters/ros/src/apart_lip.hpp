@@ -11,22 +11,22 @@
 namespace limpet::ros {
 
 /// The half of the cup that is at the wall (SuctionCup is the other): forces at each step of
-/// physics with the pressure told last. A lip that cannot hold opens at once; from then on only
-/// answers count that know of it.
+/// physics with the latest pressure received. A lip that cannot hold opens at once; answers to
+/// earlier reports no longer count.
 class ApartLip {
 public:
-    /// In place of suction's step(). Status and pressure in `state` are as told.
+    /// In place of suction's step(). Status and pressure in `state` are those received.
     [[nodiscard]] suction::CupOutput step(const suction::CupModel& model, suction::CupState& state,
                                           const suction::Surface& surface, const Kinematics& cup,
                                           const suction::CupInput& input);
-    /// What the simulator tells of the lip, once a tick at most.
+    /// The simulator's report of the lip, once a tick at most.
     /// @return the report of the ticks that are over, when one is due; stamped in flight time. Its
     ///         press force is the largest since the last one, of those while the lip lies still,
     ///         the rest is of that instant
     [[nodiscard]] std::optional<limpet_ros::CupContact> take_report();
-    /// What it is told of seal and pressure. An answer to a report that was never made is none.
+    /// Seal and pressure as received. An answer to a report that was never made is ignored.
     /// @param answer  sound, see phase_from()
-    void hear(const limpet_ros::CupState& answer);
+    void receive(const limpet_ros::CupState& answer);
 
 private:
     void collect(const limpet_ros::CupContact& now, CupPhase phase, double time_s);

@@ -45,11 +45,11 @@ void AutopilotCalls::work(const std::stop_token& over) {
     }
 }
 
-void AutopilotCalls::ask(::ros::ServiceClient& client, auto& call, const char* name) {
+void AutopilotCalls::send(::ros::ServiceClient& client, auto& call, const char* name) {
     if (client.call(call)) {
         return;
     }
-    // roscpp does not tell who calls why.
+    // roscpp gives no reason.
     const bool there = ::ros::service::exists(name, false);
     ROS_WARN_THROTTLE(5.0, "%s: %s (%s, md5 %s)", name,
                       there ? "the call failed: is its definition another one than ours?"
@@ -61,14 +61,14 @@ void AutopilotCalls::call(const std::string& mode, std::optional<bool> armed) {
     if (!mode.empty()) {
         limpet_ros::SetMode call;
         call.request.custom_mode = mode;
-        ask(mode_call_, call, "mavros/set_mode");
+        send(mode_call_, call, "mavros/set_mode");
     }
     if (armed) {
         limpet_ros::CommandLong call;
         call.request.command = mavlink::MavCmd::component_arm_disarm;
         call.request.param1 = *armed ? 1.0F : 0.0F;
-        call.request.param2 = *armed ? 0.0F : mavlink::kForce;  // PX4 asks for it off the ground
-        ask(command_call_, call, "mavros/cmd/command");
+        call.request.param2 = *armed ? 0.0F : mavlink::kForce;  // PX4 needs it off the ground
+        send(command_call_, call, "mavros/cmd/command");
     }
 }
 

@@ -12,9 +12,9 @@
 
 namespace limpet::ros {
 
-/// Asks the autopilot for mode and arming, in a thread of its own: MAVROS answers a call when the
-/// autopilot does, and set-points must not wait for that. What is wanted is asked for again until
-/// nothing is wanted any more.
+/// Requests mode and arming of the autopilot, in a separate thread: MAVROS answers a call when the
+/// autopilot does, and set-points must not wait for that. A request is repeated until nothing is
+/// wanted any more.
 class AutopilotCalls {
 public:
     /// @param retry_s  of wall time, between two calls
@@ -26,8 +26,8 @@ public:
 
 private:
     void work(const std::stop_token& over);
-    /// Says so when nobody takes the call.
-    static void ask(::ros::ServiceClient& client, auto& call, const char* name);
+    /// Logs a call that fails.
+    static void send(::ros::ServiceClient& client, auto& call, const char* name);
     void call(const std::string& mode, std::optional<bool> armed);
 
     double retry_s_;

@@ -14,9 +14,9 @@ diagnostic_msgs::DiagnosticStatus status_message(const std::string& node_name,
     status.message = part.message;
     status.hardware_id = "limpet";
     for (const auto& [key, value] : part.values) {
-        diagnostic_msgs::KeyValue& told = status.values.emplace_back();
-        told.key = key;
-        told.value = value;
+        diagnostic_msgs::KeyValue& entry = status.values.emplace_back();
+        entry.key = key;
+        entry.value = value;
     }
     return status;
 }
@@ -25,7 +25,7 @@ Diagnostics::Diagnostics(::ros::NodeHandle& node, std::string node_name)
     : name_(std::move(node_name)),
       out_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", kQueue)) {}
 
-void Diagnostics::tell(const std::vector<Diagnosis>& parts, const ::ros::Time& now) const {
+void Diagnostics::publish(const std::vector<Diagnosis>& parts, const ::ros::Time& now) const {
     diagnostic_msgs::DiagnosticArray message;
     for (const Diagnosis& part : parts) {
         message.status.push_back(status_message(name_, part));

@@ -28,12 +28,12 @@ struct Diagnosis {
 /// A node's parts on /diagnostics, where rqt_robot_monitor and diagnostic_aggregator look.
 class Diagnostics {
 public:
-    static constexpr int kRate_Hz = 1;  ///< so often they are to be told
+    static constexpr int kRate_Hz = 1;  ///< of messages
 
     /// @param node_name  parts are called "NODE: PART"
     Diagnostics(::ros::NodeHandle& node, std::string node_name);
 
-    void tell(const std::vector<Diagnosis>& parts, const ::ros::Time& now) const;
+    void publish(const std::vector<Diagnosis>& parts, const ::ros::Time& now) const;
 
 private:
     std::string name_;

@@ -13,7 +13,7 @@ std::string_view to_string(Manoeuvre manoeuvre) {
     return name_of(manoeuvre);
 }
 
-companion::Answer ask(PerchingSession& session, Manoeuvre manoeuvre, double time_s) {
+companion::Answer request(PerchingSession& session, Manoeuvre manoeuvre, double time_s) {
     switch (manoeuvre) {
         case Manoeuvre::perch: return session.perch(time_s);
         case Manoeuvre::take_off: return session.take_off(time_s);
@@ -27,7 +27,7 @@ std::optional<GoalEnd> ManoeuvreGoal::look(const PerchingSession& session) {
     begun_ = begun_ || flies;
     const bool stops = canceled_ || manoeuvre_ == Manoeuvre::abort;
     const bool at_rest = session.place() == Place::at_rest;
-    // Asked for, and waiting for its beginning: for OFFBOARD, say.
+    // Requested, and waiting for its beginning, as for OFFBOARD.
     const bool to_come = !begun_ && session.asked();
     if (to_come || (flies && !(stops && at_rest) && (stops || !session.outcome()))) {
         return std::nullopt;

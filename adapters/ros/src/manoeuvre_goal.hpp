@@ -8,7 +8,7 @@
 
 namespace limpet::ros {
 
-/// What may be asked of perching_node, by service or as an action.
+/// The manoeuvres of perching_node, by service or as actions.
 enum class Manoeuvre {
     perch,
     take_off,
@@ -20,7 +20,7 @@ enum class Manoeuvre {
 /// How a goal came to its end.
 struct GoalEnd {
     bool success = false;
-    bool canceled = false;  ///< it was asked to stop, and has
+    bool canceled = false;  ///< a cancel request ended it
     std::string outcome;    ///< of the mission; empty: none
     std::string reason;
 };
@@ -35,7 +35,7 @@ public:
     /// The session has just accepted it.
     explicit ManoeuvreGoal(Manoeuvre manoeuvre) : manoeuvre_(manoeuvre) {}
 
-    /// It is to stop: as an abort of the session, which has been told.
+    /// It is to stop: the session aborts.
     void cancel() { canceled_ = true; }
 
     /// After each tick of the session, or a word to it.
@@ -49,7 +49,7 @@ private:
 };
 
 /// As the service of that name.
-[[nodiscard]] companion::Answer ask(companion::PerchingSession& session, Manoeuvre manoeuvre,
-                                    double time_s);
+[[nodiscard]] companion::Answer request(companion::PerchingSession& session, Manoeuvre manoeuvre,
+                                        double time_s);
 
 }  // namespace limpet::ros

@@ -71,7 +71,7 @@ private:
     void take(Server::GoalHandle handle) {
         const companion::Answer answer =
             goal_ ? companion::Answer{false, "a goal of this action is under way"}
-                  : ask(session_, manoeuvre_, ::ros::Time::now().toSec());
+                  : request(session_, manoeuvre_, ::ros::Time::now().toSec());
         ROS_INFO("%s: %s", std::string(to_string(manoeuvre_)).c_str(), answer.message.c_str());
         if (!answer.done) {
             limpet_ros::PerchingResult result;

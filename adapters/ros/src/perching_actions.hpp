@@ -9,8 +9,8 @@
 
 namespace limpet::ros {
 
-/// ~perch, ~take_off and ~abort as actions (Perching.action) beside the services: a goal is
-/// accepted where the service would say yes, else rejected with its reason; feedback comes ten
+/// ~perch, ~take_off and ~abort as actions (Perching.action) next to the services: a goal is
+/// accepted where the service would succeed, else rejected with its reason; feedback comes ten
 /// times a second and with every change; to cancel a goal is an abort. One goal an action at a
 /// time. Calls come in the thread that spins.
 class PerchingActions {

@@ -20,8 +20,8 @@
 #include "adapters/ros/src/setup.hpp"
 #include "adapters/ros/src/topics.hpp"
 #include "adapters/ros/src/vehicle_mode.hpp"
-#include "limpet/companion/mechanism_out.hpp"
 #include "limpet/companion/session.hpp"
+#include "limpet/companion/wires.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
@@ -57,39 +57,42 @@ companion::SessionSetup read_setup() {
 Diagnosis diagnosis_of_guidance(const companion::PerchingSession& session) {
     using companion::SessionPhase;
     const bool flies = session.phase() == SessionPhase::flying;
-    Diagnosis told{.name = "guidance", .level = Diagnosis::Level::ok};
-    told.values = {
+    Diagnosis diagnosis{.name = "guidance"};
+    diagnosis.values = {
         {"phase", std::string(to_string(session.phase()))},
         {"state", flies ? std::string(guidance::to_string(session.memory().state)) : ""},
         {"place", std::string(companion::to_string(session.place()))},
         {"outcome", session.outcome() ? std::string(limpet::to_string(*session.outcome())) : ""},
         {"reason", session.reason()}};
-    told.message = told.values[flies ? 2 : 0].second;
+    diagnosis.message = diagnosis.values[flies ? 2 : 0].second;
     if (session.phase() == SessionPhase::handed_back) {
-        told.level = session.end() == companion::CompanionEnd::handed_back ? Diagnosis::Level::error
-                                                                           : Diagnosis::Level::warn;
-        told.message = "control was handed back: " + session.reason();
+        diagnosis.level = session.end() == companion::CompanionEnd::handed_back
+                              ? Diagnosis::Level::error
+                              : Diagnosis::Level::warn;
+        diagnosis.message = "control was handed back: " + session.reason();
     } else if (!session.obstacle().empty()) {
-        told.level = Diagnosis::Level::warn;
-        told.message += ": " + session.obstacle();
+        diagnosis.level = Diagnosis::Level::warn;
+        diagnosis.message += ": " + session.obstacle();
     }
-    return told;
+    return diagnosis;
 }
 
 constexpr double kOld_s = 1.0;
-constexpr double kSeldom_s = 3.0;  ///< MAVROS tells state and battery about once a second
+constexpr double kSeldom_s = 3.0;  ///< MAVROS publishes state and battery about once a second
 
 /// How old each input is.
 Diagnosis diagnosis_of_inputs(const companion::SessionInputs& in, double now_s) {
-    Diagnosis told{.name = "inputs", .level = Diagnosis::Level::ok, .message = "all come"};
+    Diagnosis diagnosis{.name = "inputs", .message = "all come"};
     const auto look = [&](const char* name, double measured_s, double old_s = kOld_s) {
         const bool ever = measured_s >= 0.0;
-        told.values.emplace_back(std::string(name) + " age_s",
-                                 ever ? fmt::format("{:.3f}", now_s - measured_s) : "never came");
+        diagnosis.values.emplace_back(
+            std::string(name) + " age_s",
+            ever ? fmt::format("{:.3f}", now_s - measured_s) : "never came");
         if (!ever || now_s - measured_s > old_s) {
-            const bool first = told.level == Diagnosis::Level::ok;
-            told.message = first ? "do not come: " + std::string(name) : told.message + ", " + name;
-            told.level = Diagnosis::Level::error;
+            const bool first = diagnosis.level == Diagnosis::Level::ok;
+            diagnosis.message =
+                first ? "do not come: " + std::string(name) : diagnosis.message + ", " + name;
+            diagnosis.level = Diagnosis::Level::error;
         }
     };
     look("mavros/state", in.autopilot.time_s, kSeldom_s);
@@ -101,7 +104,7 @@ Diagnosis diagnosis_of_inputs(const companion::SessionInputs& in, double now_s) 
     look("lidar/right", in.readings.lidar_right.time_s);
     look("cup/force", in.readings.force.time_s);
     look("cup/pressure", in.readings.cup_pressure.time_s);
-    return told;
+    return diagnosis;
 }
 
 class PerchingNode {
@@ -109,7 +112,7 @@ public:
     explicit PerchingNode(const companion::SessionSetup& setup)
         : session_(
               setup,
-              {.on_event = [this](const Event& event) { tell(event); },
+              {.on_event = [this](const Event& event) { publish(event); },
                .on_line = [](double, const std::string& text) { ROS_INFO("%s", text.c_str()); }}),
           own_("~"),
           calls_(kRetry_s),
@@ -135,14 +138,14 @@ private:
 
     /// @param put  (message, its time)
     template <class Message, class Put>
-    void hear(const std::string& topic, Put put) {
+    void receive(const std::string& topic, Put put) {
         subscribers_.push_back(
             listen<Message>(node_, topic, [put](const Message& m) { put(m, time_of(m.header)); }));
     }
     /// Into a sample, where the message is sound.
     template <class Message, class T, class Read>
     void read(const std::string& topic, Sample<T>& into, Read convert) {
-        hear<Message>(topic, [&into, convert](const Message& message, double time_s) {
+        receive<Message>(topic, [&into, convert](const Message& message, double time_s) {
             if (const std::optional<T> value = convert(message)) {
                 into = {time_s, *value};
             }
@@ -151,12 +154,13 @@ private:
     void subscribe() {
         companion::SessionInputs& in = session_.inputs();
         Readings& readings = in.readings;
-        hear<limpet_ros::State>("mavros/state", [&in](const limpet_ros::State& m, double time_s) {
-            in.autopilot = {time_s,
-                            {.connected = m.connected != 0,
-                             .armed = m.armed != 0,
-                             .offboard = m.mode == kOffboard}};
-        });
+        receive<limpet_ros::State>("mavros/state",
+                                   [&in](const limpet_ros::State& m, double time_s) {
+                                       in.autopilot = {time_s,
+                                                       {.connected = m.connected != 0,
+                                                        .armed = m.armed != 0,
+                                                        .offboard = m.mode == kOffboard}};
+                                   });
         using geometry_msgs::PoseStamped;
         using geometry_msgs::TwistStamped;
         using geometry_msgs::WrenchStamped;
@@ -172,11 +176,12 @@ private:
     }
     void serve(Manoeuvre manoeuvre) {
         const std::string name(to_string(manoeuvre));
-        using Asked = std_srvs::TriggerRequest;
-        using Answered = std_srvs::TriggerResponse;
-        const boost::function<bool(Asked&, Answered&)> call = [this, manoeuvre, name](
-                                                                  Asked&, Answered& response) {
-            const companion::Answer answer = ask(session_, manoeuvre, ::ros::Time::now().toSec());
+        using Request = std_srvs::TriggerRequest;
+        using Response = std_srvs::TriggerResponse;
+        const boost::function<bool(Request&, Response&)> call = [this, manoeuvre, name](
+                                                                    Request&, Response& response) {
+            const companion::Answer answer =
+                request(session_, manoeuvre, ::ros::Time::now().toSec());
             response.success = answer.done ? 1 : 0;
             response.message = answer.message;
             ROS_INFO("%s: %s", name.c_str(), answer.message.c_str());
@@ -193,7 +198,7 @@ private:
         }
         actuate(now);
         calls_.want(std::string(session_.wanted_mode()), session_.wanted_armed());
-        tell(now);
+        publish_status(now);
         actions_.tick(now.toSec());
     }
 
@@ -220,13 +225,13 @@ private:
         send(mechanism_, command, now);
     }
 
-    void tell(const Event& event) {
+    void publish(const Event& event) {
         const limpet_ros::PerchingEvent message = event_message(event);
         ROS_INFO("%s%s%s", message.name.c_str(), message.reason.empty() ? "" : ": ",
                  message.reason.c_str());
         send(event_, message, ::ros::Time::now());
     }
-    void tell(const ::ros::Time& now) {
+    void publish_status(const ::ros::Time& now) {
         const guidance::PerchingMemory& memory = session_.memory();
         limpet_ros::PerchingStatus status;
         status.phase = std::string(to_string(session_.phase()));
@@ -250,7 +255,7 @@ private:
 
     void diagnose() {
         const ::ros::Time now = ::ros::Time::now();
-        diagnostics_.tell(
+        diagnostics_.publish(
             {diagnosis_of_guidance(session_), diagnosis_of_inputs(session_.inputs(), now.toSec())},
             now);
     }

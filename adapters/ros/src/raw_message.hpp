@@ -17,7 +17,7 @@ struct RawMessage {
 
 }  // namespace limpet::ros
 
-// What roscpp asks of a message: any definition, bytes as they are.
+// What roscpp needs of a message: any definition, bytes as they are.
 namespace ros::message_traits {
 template <>
 struct IsMessage<limpet::ros::RawMessage> : TrueType {};

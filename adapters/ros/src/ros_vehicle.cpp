@@ -41,7 +41,7 @@ RosVehicle::RosVehicle(const scenario::Scenario& scenario, const RosVehicleOptio
       sensors_(scenario.sensors),
       host_(std::move(host)),
       diagnostics_(node_, "vehicle"),
-      heard_(options.manners, options.ends_with_mission) {
+      received_(options.manners, options.ends_with_mission) {
     node_.setCallbackQueue(&queue_);
     advertise();
     subscribe();
@@ -75,28 +75,28 @@ void RosVehicle::advertise() {
 }
 
 void RosVehicle::subscribe() {
-    const auto hear = [this](const auto& heard) {
+    const auto receive = [this](const auto& received) {
         const std::lock_guard lock(mutex_);
-        heard_.hear(heard);
+        received_.receive(received);
         news_.notify_all();
     };
-    const auto target = [hear](const auto& message) {
+    const auto target = [receive](const auto& message) {
         if (const auto motion = motion_from(message)) {
-            hear(*motion);
+            receive(*motion);
         }
     };
-    const auto cup = [hear](const limpet_ros::CupState& message) {
+    const auto cup = [receive](const limpet_ros::CupState& message) {
         if (phase_from(message)) {
-            hear(message);
+            receive(message);
         }
     };
     subscribers_ = {
         listen<limpet_ros::PositionTarget>(node_, "mavros/setpoint_raw/local", target),
         listen<limpet_ros::AttitudeTarget>(node_, "mavros/setpoint_raw/attitude", target),
         listen<geometry_msgs::PoseStamped>(node_, "mavros/setpoint_position/local", target),
-        listen<limpet_ros::MechanismCommand>(node_, "mechanism/command", hear),
-        listen<limpet_ros::PerchingStatus>(node_, "perching_node/status", hear),
-        listen<limpet_ros::PerchingEvent>(node_, "perching_node/event", hear),
+        listen<limpet_ros::MechanismCommand>(node_, "mechanism/command", receive),
+        listen<limpet_ros::PerchingStatus>(node_, "perching_node/status", receive),
+        listen<limpet_ros::PerchingEvent>(node_, "perching_node/event", receive),
         listen<limpet_ros::CupState>(node_, "cup/state", cup)};
     services_ = {node_.advertiseService("mavros/cmd/arming", &RosVehicle::arm, this),
                  node_.advertiseService("mavros/cmd/command", &RosVehicle::command, this),
@@ -107,7 +107,7 @@ bool RosVehicle::arm(limpet_ros::CommandBool::Request& request,
                      limpet_ros::CommandBool::Response& response) {
     response.success = 1;  // and result 0: MAV_RESULT_ACCEPTED
     const std::lock_guard lock(mutex_);
-    heard_.arm(request.value != 0);
+    received_.arm(request.value != 0);
     return true;
 }
 
@@ -119,7 +119,7 @@ bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
     response.result = response.success != 0 ? kAccepted : kUnsupported;
     if (response.success != 0) {
         const std::lock_guard lock(mutex_);
-        heard_.arm(request.param1 > 0.5F);
+        received_.arm(request.param1 > 0.5F);
     }
     return true;
 }
@@ -127,7 +127,7 @@ bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
 bool RosVehicle::set_mode(limpet_ros::SetMode::Request& request,
                           limpet_ros::SetMode::Response& response) {
     const std::lock_guard lock(mutex_);
-    response.mode_sent = heard_.choose(request.custom_mode) ? 1 : 0;
+    response.mode_sent = received_.choose(request.custom_mode) ? 1 : 0;
     return true;
 }
 
@@ -179,12 +179,11 @@ void RosVehicle::show(const simulation::Flight& flight) {
 void RosVehicle::diagnose() {
     const std::lock_guard lock(mutex_);
     Diagnosis simulation{.name = "simulation",
-                         .level = Diagnosis::Level::ok,
                          .message = "in step with perching_node",
-                         .values = {{"mode", std::string(heard_.mode().mode())},
-                                    {"armed", heard_.mode().armed() ? "yes" : "no"},
+                         .values = {{"mode", std::string(received_.mode().mode())},
+                                    {"armed", received_.mode().armed() ? "yes" : "no"},
                                     {"flight_s", fmt::format("{:.1f}", flight_s_)}}};
-    if (!heard_.guidance_heard()) {
+    if (!received_.guidance_received()) {
         simulation.level = Diagnosis::Level::warn;
         simulation.message = "no perching_node sends: holds";
     } else if (!waits_) {
@@ -193,20 +192,20 @@ void RosVehicle::diagnose() {
             fmt::format("perching_node has sent nothing for {:g} s of real time: flown on without",
                         options_.patience_s);
     }
-    diagnostics_.tell({simulation}, ros_time(clock_s_));
+    diagnostics_.publish({simulation}, ros_time(clock_s_));
 }
 
 // --- the simulation's calls ---------------------------------------------------------------------
 
 /// Of /clock, at the first tick of a flight. Nodes begin anew by its going back; where it is the
-/// simulator's and goes on they do not, and are told how they would.
+/// simulator's and goes on they do not, and a warning says how they would.
 double RosVehicle::clock_start_s(double time_s) {
     const std::string other = host_ && !clock_out_ ? host_->publisher() : "";
     if (!clock_out_ && other.empty()) {
         clock_out_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
     }
     if (!host_) {
-        return Heard::kClockStart_s;
+        return Received::kClockStart_s;
     }
     const double now_s = host_->now_s() - time_s;
     const bool goes_on = clock_ >= 0 && now_s >= clock_s_;
@@ -220,7 +219,7 @@ double RosVehicle::clock_start_s(double time_s) {
         }
         return now_s;
     }
-    return goes_on ? Heard::kClockStart_s : now_s;
+    return goes_on ? Received::kClockStart_s : now_s;
 }
 
 void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, double time_s,
@@ -230,21 +229,21 @@ void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, do
     {
         const std::lock_guard lock(mutex_);
         const bool begins = clock_ < 0 || time_s < flight_s_;
-        const bool anew = heard_.tick(time_s, begins ? clock_start_s(time_s) : 0.0);
-        clock_ = heard_.clock();
-        clock_s_ = heard_.clock_s();
+        const bool anew = received_.tick(time_s, begins ? clock_start_s(time_s) : 0.0);
+        clock_ = received_.clock();
+        clock_s_ = received_.clock_s();
         flight_s_ = time_s;
         const bool was_armed = guidance.setpoint.armed;
-        const bool lost = heard_.take(estimate, guidance, events);
+        const bool lost = received_.take(estimate, guidance, events);
         shows_state = due(clock_, kState_Hz) || lost || was_armed != guidance.setpoint.armed;
-        state.armed = heard_.mode().armed() ? 1 : 0;
-        state.mode = std::string(heard_.mode().mode());
+        state.armed = received_.mode().armed() ? 1 : 0;
+        state.mode = std::string(received_.mode().mode());
         if (anew) {
             lip_ = {};
             last_ = {};
         }
-        if (heard_.answer()) {
-            lip_.hear(*heard_.answer());
+        if (received_.answer()) {
+            lip_.receive(*received_.answer());
         }
     }
     if (clock_out_ && due(clock_, kClock_Hz)) {
@@ -270,7 +269,7 @@ void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, do
 
 void RosVehicle::keep_step() {
     std::unique_lock lock(mutex_);
-    const auto in_step = [this] { return !heard_.guidance_is_behind(); };
+    const auto in_step = [this] { return !received_.guidance_is_behind(); };
     if (in_step()) {
         waits_ = true;
     } else if (waits_) {
@@ -280,7 +279,7 @@ void RosVehicle::keep_step() {
 
 std::string RosVehicle::obstacle() const {
     const std::lock_guard lock(mutex_);
-    return heard_.guidance_heard() ? "" : "no perching_node sends";
+    return received_.guidance_received() ? "" : "no perching_node sends";
 }
 
 suction::CupOutput RosVehicle::step(const suction::CupModel& model, suction::CupState& state,

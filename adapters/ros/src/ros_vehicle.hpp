@@ -22,7 +22,7 @@
 #include "adapters/ros/src/apart_lip.hpp"
 #include "adapters/ros/src/convert.hpp"
 #include "adapters/ros/src/diagnostics.hpp"
-#include "adapters/ros/src/heard.hpp"
+#include "adapters/ros/src/received.hpp"
 #include "adapters/ros/src/scene_topics.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/scenario/scenario.hpp"
@@ -33,7 +33,7 @@ namespace limpet::ros {
 struct RosVehicleOptions {
     OffboardManners manners;
     /// The cup's seal and pressure come from suction_cup_node; else the simulator keeps them and
-    /// tells the pressure sensor itself.
+    /// publishes the pressure sensor itself.
     bool cup_by_node = true;
     /// The flight is over when perching_node's mission is; else when its time is.
     bool ends_with_mission = false;
@@ -49,16 +49,18 @@ struct RosVehicleOptions {
 struct HostClock {
     /// Of the state that the flight begins with [s].
     std::function<double()> now_s;
-    /// Who has it on /clock already; empty: nobody.
+    /// Who has it on /clock already; empty: no node.
     std::function<std::string()> publisher;
 };
 
 /// A simulated vehicle with ROS at its boundary: /clock, sensors and the autopilot's estimate go
 /// out, set-points, pump, valve and the cup's state come in. The same in Gazebo and on the embedded
 /// engine. The simulation's thread calls exchange() and step(); what comes in is taken by a thread
-/// of its own. Simulated time keeps step with guidance: where perching_node was heard and is late,
-/// exchange() waits for it, so that a busy machine makes a flight slower and not another one. One
-/// that does not come within patience_s is gone: it is waited for again once it is heard.
+/// of its own. Simulated time keeps step with guidance: where perching_node has spoken
+/// and is late, exchange() waits for it, so that a busy machine makes a flight slower and not
+/// another one.
+/// One that does not come within patience_s is gone: it is waited for again once its messages
+/// come.
 class RosVehicle final : public simulation::ExternalGuidance, public simulation::ExternalCup {
 public:
     /// ros::init() has been called.
@@ -102,7 +104,7 @@ private:
     ::ros::CallbackQueue queue_;
     std::vector<::ros::Subscriber> subscribers_;
     std::vector<::ros::ServiceServer> services_;
-    std::optional<::ros::Publisher> clock_out_;  ///< none: /clock is somebody else's
+    std::optional<::ros::Publisher> clock_out_;  ///< none: another node publishes /clock
     ::ros::Publisher pose_, velocity_, imu_, state_, battery_, left_, right_, force_, pressure_,
         contact_;
 
@@ -118,7 +120,7 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable news_;
-    Heard heard_;        ///< shared; by mutex_
+    Received received_;  ///< shared; by mutex_
     bool waits_ = true;  ///< for a guidance that is behind
 
     std::unique_ptr<::ros::AsyncSpinner> spinner_;  ///< last: stops before what it calls goes

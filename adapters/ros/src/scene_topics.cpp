@@ -71,7 +71,7 @@ SceneTopics::SceneTopics(::ros::NodeHandle& node, const simulation::FlightModel&
       standing_(node.advertise<tf2_msgs::TFMessage>("/tf_static", kAsTf2, true)),
       joints_(node.advertise<sensor_msgs::JointState>("joint_states", kQueue)),
       wall_(node.advertise<visualization_msgs::Marker>("wall", 1, true)),
-      description_(tell_description(node, model.scenario->airframe)) {
+      description_(publish_description(node, model.scenario->airframe)) {
     standing_.publish(tf_message(standing_frames(scene_), {}));
     if (scene_.wall) {
         wall_.publish(wall_marker(scene_));

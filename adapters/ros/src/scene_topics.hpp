@@ -23,7 +23,7 @@ namespace limpet::ros {
 
 /// A simulated vehicle as viewers show it, in truth: /tf, /tf_static, joint_states, the wall as a
 /// marker, and the vehicle's URDF under the name robot_description: a parameter of ROS 1, a topic
-/// of ROS 2. Whoever runs a robot_state_publisher beside it has the same frames twice.
+/// of ROS 2. A robot_state_publisher next to it publishes the same frames twice.
 class SceneTopics {
 public:
     SceneTopics(::ros::NodeHandle& node, const simulation::FlightModel& model);

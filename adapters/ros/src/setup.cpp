@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
@@ -74,7 +75,7 @@ SetupArguments flight_of_vehicle() {
                 return *flight;
             }
         }
-        ROS_INFO_ONCE("waits for the vehicle to tell what it flies (%s)", kFlightParameter);
+        ROS_INFO_ONCE("waits for the vehicle to publish what it flies (%s)", kFlightParameter);
         ::ros::WallDuration(0.1).sleep();
     }
     throw InputError(fmt::format("{}: no vehicle has published what it flies", kFlightParameter));
@@ -82,7 +83,7 @@ SetupArguments flight_of_vehicle() {
 
 }  // namespace
 
-const YamlNode* said(const YamlNode& section, std::string_view key) {
+const YamlNode* given(const YamlNode& section, std::string_view key) {
     const YamlNode* const node = section.find(key);
     return node != nullptr && node->kind != YamlNode::Kind::null ? node : nullptr;
 }
@@ -90,7 +91,7 @@ const YamlNode* said(const YamlNode& section, std::string_view key) {
 SetupArguments read_arguments(const YamlNode& section) {
     SetupArguments arguments;
     const auto read = [&](const char* key, auto how, auto& value) {
-        if (const YamlNode* node = said(section, key)) {
+        if (const YamlNode* node = given(section, key)) {
             value = how(*node);
         }
     };
@@ -106,14 +107,14 @@ SetupArguments read_arguments(const YamlNode& section) {
 NodeSetup load_setup(const SetupArguments& arguments) {
     scenario::LoadOptions options;
     options.seed = arguments.seed;
-    const auto say = [&options](const char* key, const std::string& value) {
+    const auto add = [&options](const char* key, const std::string& value) {
         if (!value.empty()) {
             options.overrides.push_back(std::string(key) + "=" + value);
         }
     };
-    say("vehicle", arguments.vehicle);
-    say("wall.surface", arguments.surface);
-    say("mission", arguments.mission);
+    add("vehicle", arguments.vehicle);
+    add("wall.surface", arguments.surface);
+    add("mission", arguments.mission);
     std::vector<std::string> limits;
     for (const std::string& setting : arguments.set) {
         const bool is_limit = setting.compare(0, kLimits.size(), kLimits) == 0;
@@ -150,7 +151,7 @@ std::optional<SetupArguments> flight_from(XmlRpcValue value) {
     return std::nullopt;
 }
 
-void tell_flight(SetupArguments flight) {
+void publish_flight(SetupArguments flight) {
     if (is_file(flight.scenario)) {
         flight.scenario = std::filesystem::absolute(flight.scenario).string();
     }
@@ -168,6 +169,16 @@ YamlNode node_parameters(std::vector<std::string_view> more) {
     static_cast<void>(::ros::param::get(name, value));
     YamlNode parameters = tree_of({}, name, value);
     check_keys(parameters, more);
+    return parameters;
+}
+
+YamlNode node_parameters(const std::vector<BoundParameter>& rows,
+                         std::vector<std::string_view> more) {
+    for (const BoundParameter& row : rows) {
+        more.push_back(row.name);
+    }
+    YamlNode parameters = node_parameters(std::move(more));
+    read_given(parameters, rows);
     return parameters;
 }
 

@@ -15,7 +15,7 @@
 
 namespace limpet::ros {
 
-/// What a node is told by its private parameters. Empty: not said.
+/// A node's private parameters. Empty: not given.
 struct SetupArguments {
     std::string scenario = {};  ///< a name or a path; the others change it
     std::string vehicle = {};   ///< perching_uav without a scenario
@@ -27,9 +27,9 @@ struct SetupArguments {
     friend bool operator==(const SetupArguments&, const SetupArguments&) = default;
 };
 
-/// @return nullptr for what is not said: not there, or an empty text
-[[nodiscard]] const scenario::YamlNode* said(const scenario::YamlNode& section,
-                                             std::string_view key);
+/// @return nullptr for what is not given: not there, or an empty text
+[[nodiscard]] const scenario::YamlNode* given(const scenario::YamlNode& section,
+                                              std::string_view key);
 /// @param section  with such keys among others; `set` is a list of texts, or one text "KEY=VALUE;
 ///                 KEY=VALUE"
 /// @throws InputError one line that names the key, its value and what is allowed
@@ -44,21 +44,25 @@ struct NodeSetup {
 /// @throws InputError one line: place, key, value, what is allowed
 [[nodiscard]] NodeSetup load_setup(const SetupArguments& arguments);
 
-/// Where a simulated vehicle tells what it flies, so that nodes fly nothing else.
+/// Where a simulated vehicle publishes what it flies, so that nodes fly nothing else.
 inline constexpr const char* kFlightParameter = "/limpet/flight";
 /// As a parameter: all of it in one, so that nobody reads a half.
 [[nodiscard]] XmlRpc::XmlRpcValue flight_value(const SetupArguments& flight);
 /// @return nullopt if it is none
 [[nodiscard]] std::optional<SetupArguments> flight_from(XmlRpc::XmlRpcValue value);
 /// @param flight  a path in it is of this program's folder
-void tell_flight(SetupArguments flight);
+void publish_flight(SetupArguments flight);
 
 /// A node's private parameters, read once when it starts, as a section of YAML: the same checks,
 /// the same messages (limpet/scenario/yaml_reader.hpp), where each parameter is called by its name.
-/// @param more  parameters of this node beside those of its setup: ~scenario, ~vehicle, ~surface,
+/// @param more  parameters of this node other than those of its setup: ~scenario, ~vehicle,
+/// ~surface,
 ///              ~mission, ~set, ~seed and ~as_vehicle
 /// @throws InputError for one that is none of these: it would mean nothing
 [[nodiscard]] scenario::YamlNode node_parameters(std::vector<std::string_view> more);
+/// The same with rows, which take what is given.
+[[nodiscard]] scenario::YamlNode node_parameters(const std::vector<BoundParameter>& rows,
+                                                 std::vector<std::string_view> more);
 /// Its setup; with ~as_vehicle the simulated vehicle's own, for which it waits; then only ~mission
 /// and ~set may change them.
 /// @throws InputError

@@ -34,7 +34,7 @@ public:
         event_ = own_.advertise<limpet_ros::PerchingEvent>("event", kQueue);
         contacts_ = listen<limpet_ros::CupContact>(
             node_, "cup/contact",
-            [this](const limpet_ros::CupContact& message) { hear_contact(message); });
+            [this](const limpet_ros::CupContact& message) { receive_contact(message); });
         commands_ = listen<limpet_ros::MechanismCommand>(
             node_, "mechanism/command", [this](const limpet_ros::MechanismCommand& message) {
                 cup_.command(message.pump_on != 0, message.valve_open != 0);
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    void hear_contact(const limpet_ros::CupContact& message) {
+    void receive_contact(const limpet_ros::CupContact& message) {
         const auto contact = lip_contact(message);
         if (!contact) {
             ROS_WARN_THROTTLE(5.0, "cup/contact: a message with a number that is none");
@@ -62,12 +62,12 @@ private:
             send(pressure_, pressure_message(cup_.pressure().value), ros_time(sensed_s_));
         }
         if (event) {
-            const limpet_ros::PerchingEvent told = event_message(*event);
-            send(event_, told, message.header.stamp);
-            ROS_INFO("%s: %s", told.name.c_str(), told.reason.c_str());
+            const limpet_ros::PerchingEvent happened = event_message(*event);
+            send(event_, happened, message.header.stamp);
+            ROS_INFO("%s: %s", happened.name.c_str(), happened.reason.c_str());
         }
     }
-    // By hand; whoever commands the mechanism over its topic says otherwise within a moment.
+    // By hand; the next command on the mechanism's topic overrides it.
     bool switch_pump(std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
         cup_.command(request.data != 0, cup_.valve_open());
         response.success = 1;
@@ -85,26 +85,25 @@ private:
     }
 
     void diagnose() {
-        constexpr double kOld_s = 1.0;  // also away from a wall the plugin tells now and then
+        constexpr double kOld_s = 1.0;  // also away from a wall the plugin publishes now and then
         const ::ros::Time now = ::ros::Time::now();
         const CupStatus& status = cup_.state().status;
         const bool holds = status.phase == CupPhase::attached;
-        Diagnosis told{
+        Diagnosis diagnosis{
             .name = "cup",
-            .level = Diagnosis::Level::ok,
             .message = std::string(limpet::to_string(status.phase)),
             .values = {{"pressure_hPa", fmt::format("{:.1f}", 0.01 * status.pressure_Pa)},
                        {"pump", status.pump_running ? "runs" : "rests"},
                        {"valve", status.valve_open ? "open" : "shut"}}};
         // A clock that has begun anew is not behind for long.
         if (felt_s_ < 0.0 || now.toSec() - felt_s_ > kOld_s) {
-            told.level = Diagnosis::Level::warn;
-            told.message = "nothing is felt: no cup/contact comes from the simulator";
+            diagnosis.level = Diagnosis::Level::warn;
+            diagnosis.message = "nothing is felt: no cup/contact comes from the simulator";
         } else if (holds && !cup_.pump_on()) {
-            told.level = Diagnosis::Level::warn;
-            told.message = "holds with its pump off: lets go as air comes in";
+            diagnosis.level = Diagnosis::Level::warn;
+            diagnosis.message = "holds with its pump off: lets go as air comes in";
         }
-        diagnostics_.tell({told}, now);
+        diagnostics_.publish({diagnosis}, now);
     }
 
     SuctionCup cup_;

@@ -31,17 +31,17 @@ template <class Message>
 }
 
 /// Small messages, each of which counts at once: none may wait for the next. A peer whose
-/// definition is another one is told of once, and not heard.
+/// definition is another one is logged once, and ignored.
 /// @param call  takes a Message
 template <class Message, class Call>
 [[nodiscard]] ::ros::Subscriber listen(::ros::NodeHandle& node, const std::string& topic,
                                        Call call) {
     using Raw = ::ros::MessageEvent<const RawMessage>;
-    const auto told = std::make_shared<std::set<std::string>>();
-    const boost::function<void(const Raw&)> hear = [call, told, topic](const Raw& event) {
+    const auto logged = std::make_shared<std::set<std::string>>();
+    const boost::function<void(const Raw&)> receive = [call, logged, topic](const Raw& event) {
         auto& peer = event.getConnectionHeader();
         if (!understands<Message>(peer["md5sum"])) {
-            if (told->insert(peer["callerid"] + peer["md5sum"]).second) {
+            if (logged->insert(peer["callerid"] + peer["md5sum"]).second) {
                 ROS_ERROR(
                     "%s: %s sends %s of another definition (md5 %s), understood is %s (md5 %s)",
                     topic.c_str(), peer["callerid"].c_str(), peer["type"].c_str(),
@@ -64,7 +64,7 @@ template <class Message, class Call>
         call(message);
     };
     ::ros::SubscribeOptions options;
-    options.initByFullCallbackType<const Raw&>(topic, kQueue, hear);
+    options.initByFullCallbackType<const Raw&>(topic, kQueue, receive);
     options.datatype = ::ros::message_traits::DataType<Message>::value();
     options.transport_hints = ::ros::TransportHints().tcpNoDelay();
     return node.subscribe(options);

@@ -21,7 +21,7 @@ struct OffboardManners {
 inline constexpr std::string_view kOffboard = "OFFBOARD";
 inline constexpr std::string_view kHold = "AUTO.LOITER";
 
-/// What the built-in autopilot is told by ROS: PX4's modes, as far as perching needs them. It
+/// Modes of the built-in autopilot by ROS: PX4's, as far as perching needs them. It
 /// begins armed and holding; in OFFBOARD it flies set-points, and without them it brakes, then
 /// holds where it is. At rest on the wall there is nothing to hold: disarmed stays disarmed
 /// (docs/decisions/0013). Time is injected.

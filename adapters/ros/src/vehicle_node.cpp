@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated vehicle as a ROS node, on the embedded engine: what Gazebo and its plugin are on
-// Debian 11 and Ubuntu 20.04. It hovers before the wall until somebody flies it.
+// Debian 11 and Ubuntu 20.04. It hovers before the wall until set-points come.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -9,7 +9,7 @@
 #include "adapters/ros/src/setup.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/simulation/flight.hpp"
-#include "limpet/simulation/result_json.hpp"
+#include "limpet/simulation/flight_text.hpp"
 
 namespace limpet::ros {
 namespace {
@@ -19,19 +19,14 @@ void vehicle_node() {
     double speed = 1.0;
     std::vector<BoundParameter> rows = options.rows();
     rows.push_back({"speed", "-", 0.01, 100.0, &speed, "times real time", "assumed"});
-    std::vector<std::string_view> names = {"recording"};
-    for (const BoundParameter& row : rows) {
-        names.push_back(row.name);
-    }
-    const scenario::YamlNode parameters = node_parameters(names);
-    read_given(parameters, rows);
-    const scenario::YamlNode* const file = said(parameters, "recording");
+    const scenario::YamlNode parameters = node_parameters(rows, {"recording"});
+    const scenario::YamlNode* const file = given(parameters, "recording");
     const std::string recording = file != nullptr ? read_text(*file) : "";
     const SetupArguments arguments = setup_of(parameters);
     const NodeSetup setup = load_setup(arguments);
 
     const auto model = simulation::build_model(setup.scenario);
-    tell_flight(arguments);
+    publish_flight(arguments);
     RosVehicle vehicle(setup.scenario, options);
     std::atomic<bool> stop{false};
     simulation::FlightWatch watch;

@@ -83,7 +83,7 @@ Happened in_two_halves(const scenario::Scenario& scenario, double delay_s) {
     std::deque<std::pair<double, limpet_ros::CupState>> on_the_way;  // when each arrives
     return play(state, [&](const Kinematics& cup, const suction::CupInput& input) {
         while (!on_the_way.empty() && on_the_way.front().first < input.time_s) {
-            lip.hear(on_the_way.front().second);
+            lip.receive(on_the_way.front().second);
             on_the_way.pop_front();
         }
         const auto output = lip.step(model, state, scenario.wall.surface, cup, input);
@@ -153,18 +153,18 @@ TEST(ApartCup, AnOldAnswerDoesNotSealALipThatHasLetGo) {
     holds.contact = last;
     holds.phase = limpet_ros::CupState::ATTACHED;
     holds.pressure_Pa = holds.mean_pressure_Pa = 65000.0;
-    lip.hear(holds);
+    lip.receive(holds);
     hold(0.001, 0.01);
     EXPECT_EQ(state.status.phase, CupPhase::attached);
     hold(-0.05, 0.002);  // a thousand newtons: no vacuum holds that
     EXPECT_EQ(state.status.phase, CupPhase::free);
-    hold(0.001, 0.002);  // touches again, and is told what was so before
-    lip.hear(holds);
+    hold(0.001, 0.002);  // touches again, and receives an older answer
+    lip.receive(holds);
     hold(0.001, 0.002);
     EXPECT_EQ(state.status.phase, CupPhase::touching);
-    limpet_ros::CupState unheard = holds;
-    unheard.contact = last + 1000;  // of no report of ours
-    lip.hear(unheard);
+    limpet_ros::CupState missed = holds;
+    missed.contact = last + 1000;  // of no report of ours
+    lip.receive(missed);
     hold(0.001, 0.002);
     EXPECT_EQ(state.status.phase, CupPhase::touching);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Beside gazebo_ros: one /clock, the world's; its world is tf's map; a world reset begins the nodes anew."""
+"""With gazebo_ros: one /clock, the world's; its world is tf's map; a world reset begins the nodes anew."""
 import subprocess
 import sys
 import threading
@@ -19,14 +19,14 @@ STEP_S = 0.001
 class OneClock(unittest.TestCase):
     def setUp(self):
         self.lock, self.times, self.place = threading.Lock(), [], None
-        rospy.Subscriber("/clock", Clock, self.hear_clock, queue_size=10000, tcp_nodelay=True)
-        rospy.Subscriber("/gazebo/place", PoseStamped, self.hear_place, queue_size=1, tcp_nodelay=True)
+        rospy.Subscriber("/clock", Clock, self.take_clock, queue_size=10000, tcp_nodelay=True)
+        rospy.Subscriber("/gazebo/place", PoseStamped, self.take_place, queue_size=1, tcp_nodelay=True)
 
-    def hear_clock(self, message):
+    def take_clock(self, message):
         with self.lock:
             self.times.append(message.clock.to_sec())
 
-    def hear_place(self, message):
+    def take_place(self, message):
         self.place = message
 
     def test_is_the_worlds(self):
@@ -39,7 +39,7 @@ class OneClock(unittest.TestCase):
         watch.until("approaching", lambda w: w.status.state_name == "approaching", 90)
         with self.lock:
             times = self.times[:]
-        # A second one would say times between, or again.
+        # A second one would publish times between, or again.
         steps = [later - sooner for sooner, later in zip(times, times[1:])]
         self.assertGreater(len(steps), 1000)
         self.assertAlmostEqual(min(steps), STEP_S, delta=1e-6)
@@ -55,7 +55,7 @@ class OneClock(unittest.TestCase):
     def world_is_the_map(self, tree):
         place = self.place
         self.assertEqual(place.header.frame_id, "perching_uav")
-        # It is told at the beginning of a step, whose time is the world's already.
+        # It is published at the beginning of a step, whose time is the world's already.
         p, q = tree.find("map", "base_link", rospy.Time.from_sec(place.header.stamp.to_sec() - STEP_S))
         off_m = max(abs(a - b) for a, b in zip(p, triple(place.pose.position)))
         print("clock: %d, map and world %.4f m apart" % (len(self.times), off_m))

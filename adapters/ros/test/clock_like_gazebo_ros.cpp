@@ -23,11 +23,11 @@ public:
         clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", 10);
         place_ = node_->advertise<geometry_msgs::PoseStamped>("/gazebo/place", 10);
         on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
-            [this, world](const gazebo::common::UpdateInfo& info) { tell(*world, info); });
+            [this, world](const gazebo::common::UpdateInfo& info) { publish(*world, info); });
     }
 
 private:
-    void tell(const gazebo::physics::World& world, const gazebo::common::UpdateInfo& info) {
+    void publish(const gazebo::physics::World& world, const gazebo::common::UpdateInfo& info) {
         rosgraph_msgs::Clock now;
         now.clock.fromSec(info.simTime.Double());
         clock_.publish(now);

@@ -16,21 +16,21 @@ from std_srvs.srv import SetBool
 class CupAlone(unittest.TestCase):
     def setUp(self):
         self.news, self.pressure, self.state, self.events = threading.Condition(), None, None, []
-        for topic, kind, hear in (("pressure", FluidPressure, self.hear_pressure), ("state", CupState, self.hear_state),
-                                  ("event", PerchingEvent, self.hear_event)):
-            rospy.Subscriber("/gripper/cup/" + topic, kind, hear)
+        for topic, kind, take in (("pressure", FluidPressure, self.take_pressure), ("state", CupState, self.take_state),
+                                  ("event", PerchingEvent, self.take_event)):
+            rospy.Subscriber("/gripper/cup/" + topic, kind, take)
 
-    def hear_pressure(self, message):
+    def take_pressure(self, message):
         with self.news:
             self.pressure = message
             self.news.notify_all()
 
-    def hear_state(self, message):
+    def take_state(self, message):
         with self.news:
             self.state = message
             self.news.notify_all()
 
-    def hear_event(self, message):
+    def take_event(self, message):
         with self.news:
             self.events.append(message.name)
             self.news.notify_all()

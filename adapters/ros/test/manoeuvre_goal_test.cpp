@@ -23,7 +23,7 @@ protected:
         };
     }
     void set(Manoeuvre manoeuvre) {
-        ASSERT_TRUE(ask(session_, manoeuvre, time_s_).done);
+        ASSERT_TRUE(request(session_, manoeuvre, time_s_).done);
         goal_.emplace(manoeuvre);
         end_.reset();
     }
@@ -132,7 +132,7 @@ TEST_F(AGoal, OfASimulationThatBeginsAnewFails) {
 
 TEST_F(AGoal, ToAbortIsReachedWhereControlIsHandedBack) {
     run(0.5);
-    EXPECT_FALSE(ask(session_, Manoeuvre::abort, time_s_).done);
+    EXPECT_FALSE(request(session_, Manoeuvre::abort, time_s_).done);
     set(Manoeuvre::perch);
     run_until(PerchingState::approaching, 5.0);
     set(Manoeuvre::abort);

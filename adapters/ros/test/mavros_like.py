@@ -22,9 +22,9 @@ class Watch:
                                   ("contact", "/cup/contact", CupContact),
                                   ("velocity", "/mavros/local_position/velocity_local", TwistStamped),
                                   ("pose", "/mavros/local_position/pose", PoseStamped)):
-            rospy.Subscriber(topic, kind, self.hear, name, queue_size=1, tcp_nodelay=True)
+            rospy.Subscriber(topic, kind, self.take, name, queue_size=1, tcp_nodelay=True)
 
-    def hear(self, message, name):
+    def take(self, message, name):
         with self.news:
             setattr(self, name, message)
             self.news.notify_all()

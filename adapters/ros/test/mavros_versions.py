@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A MAVROS of each definition of its State: understood, or said which message is another one."""
+"""A MAVROS of each definition of its State: understood, or the log names the message of another one."""
 import os
 import sys
 import threading
@@ -35,22 +35,22 @@ def state_class(fields):
 class MavrosVersions(unittest.TestCase):
     def setUp(self):
         self.news = threading.Condition()
-        self.obstacle, self.said = None, []
-        rospy.Subscriber("/perching_node/status", PerchingStatus, self.hear_status)
-        rospy.Subscriber("/rosout", Log, self.hear_log)
+        self.obstacle, self.lines = None, []
+        rospy.Subscriber("/perching_node/status", PerchingStatus, self.take_status)
+        rospy.Subscriber("/rosout", Log, self.take_log)
 
-    def hear_status(self, message):
+    def take_status(self, message):
         with self.news:
             self.obstacle = message.obstacle
             self.news.notify_all()
 
-    def hear_log(self, message):
+    def take_log(self, message):
         with self.news:
-            self.said.append(message.msg)
+            self.lines.append(message.msg)
             self.news.notify_all()
 
     def meet(self, fields, so):
-        """Until so(): a new perching_node hears a MAVROS with this State."""
+        """Until so(): a new perching_node receives from a MAVROS with this State."""
         node = start("limpet_ros", "perching_node", "_scenario:=perch_concrete")
         self.addCleanup(node.end)
         kind = state_class(fields)
@@ -60,21 +60,21 @@ class MavrosVersions(unittest.TestCase):
         message.connected = True
         message.mode = "AUTO.LOITER"
         with self.news:
-            self.obstacle, self.said = None, []
+            self.obstacle, self.lines = None, []
             for _ in range(300):
                 message.header.stamp = rospy.Time.now()
                 to.publish(message)
                 if self.news.wait_for(so, 0.1):
                     break
-        heard = (kind._md5sum, self.obstacle, self.said)
+        received = (kind._md5sum, self.obstacle, self.lines)
         node.end()
         to.unregister()
-        return heard
+        return received
 
     def understood(self, fields, md5):
-        heard = self.meet(fields, lambda: self.obstacle and "heartbeat" not in self.obstacle)
-        self.assertEqual(heard[0], md5)
-        self.assertNotIn("heartbeat", heard[1])
+        received = self.meet(fields, lambda: self.obstacle and "heartbeat" not in self.obstacle)
+        self.assertEqual(received[0], md5)
+        self.assertNotIn("heartbeat", received[1])
 
     def test_of_1_5_and_later(self):
         self.understood(FIRST + constants(), State._md5sum)
@@ -84,10 +84,10 @@ class MavrosVersions(unittest.TestCase):
 
     def test_another_is_named(self):
         def named():
-            return any("mavros/state" in line and "another definition" in line for line in self.said)
-        _, _, said = self.meet(OLD, named)
-        lines = [line for line in said if "another definition" in line]
-        self.assertEqual(len(lines), 1, said)
+            return any("mavros/state" in line and "another definition" in line for line in self.lines)
+        _, _, lines = self.meet(OLD, named)
+        lines = [line for line in lines if "another definition" in line]
+        self.assertEqual(len(lines), 1, lines)
         self.assertIn("mavros_msgs/State", lines[0])
 
 

@@ -23,7 +23,7 @@ TOPICS = ["/cup/pressure", "/cup/state", "/mavros/local_position/pose", "/mavros
 
 
 class Action:
-    """A client of one of perching_node's actions, and what it was told."""
+    """A client of one of perching_node's actions, and what it received."""
 
     def __init__(self, name):
         self.states, self.places = [], set()
@@ -31,13 +31,13 @@ class Action:
         if not self.client.wait_for_server(rospy.Duration(30)):
             raise AssertionError("nobody serves the action " + name)
 
-    def hear(self, feedback):
+    def take(self, feedback):
         if feedback.state not in self.states:
             self.states.append(feedback.state)
         self.places.add(feedback.place)
 
     def ask(self):
-        self.client.send_goal(PerchingGoal(), feedback_cb=self.hear)
+        self.client.send_goal(PerchingGoal(), feedback_cb=self.take)
 
     def end(self, limit_s):
         """Of simulated time. @return (state of the goal, result)"""
@@ -49,9 +49,9 @@ class Action:
 class PerchingFlight(unittest.TestCase):
     def setUp(self):
         self.parts, self.lock = {}, threading.Lock()
-        rospy.Subscriber("/diagnostics", DiagnosticArray, self.hear_diagnostics)
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self.take_diagnostics)
 
-    def hear_diagnostics(self, message):
+    def take_diagnostics(self, message):
         with self.lock:
             for status in message.status:
                 self.parts[status.name] = status
@@ -124,12 +124,12 @@ class PerchingFlight(unittest.TestCase):
         tree.every_message_is_in_it(self)
         tree.agrees_with_the_estimate(self, watch.pose)
         with self.lock:
-            told = {name: (part.level, part.message) for name, part in self.parts.items()}
+            diagnosed = {name: (part.level, part.message) for name, part in self.parts.items()}
         ok = DiagnosticStatus.OK
-        self.assertEqual(told.get("suction_cup_node: cup"), (ok, "attached"))
-        self.assertEqual(told.get("perching_node: inputs"), (ok, "all come"))
-        self.assertEqual(told.get("perching_node: guidance"), (ok, "at rest on the wall"))
-        self.assertEqual(told.get("vehicle: simulation"), (ok, "in step with perching_node"))
+        self.assertEqual(diagnosed.get("suction_cup_node: cup"), (ok, "attached"))
+        self.assertEqual(diagnosed.get("perching_node: inputs"), (ok, "all come"))
+        self.assertEqual(diagnosed.get("perching_node: guidance"), (ok, "at rest on the wall"))
+        self.assertEqual(diagnosed.get("vehicle: simulation"), (ok, "in step with perching_node"))
 
     def read_back(self, path):
         pressure, attached, pitch_at_rest, events, armed = [], [], [], [], []

@@ -82,7 +82,8 @@ TEST(WhatAVehicleFlies, NeedsNeitherSettingsNorSeed) {
 }
 
 TEST(WhatAVehicleFlies, IsNotGuessedFromSomethingElse) {
-    EXPECT_FALSE(flight_from(XmlRpc::XmlRpcValue(std::string()))) << "perch.launch: not told yet";
+    EXPECT_FALSE(flight_from(XmlRpc::XmlRpcValue(std::string())))
+        << "perch.launch: not published yet";
     XmlRpc::XmlRpcValue value = flight_value(flight());
     value["seed"] = std::string("1x");
     EXPECT_FALSE(flight_from(value));

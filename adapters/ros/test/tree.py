@@ -71,7 +71,7 @@ class Tree:
         test.assertGreater(turned(q, [1, 0, 0])[0], math.cos(math.radians(8)), "into the wall, tilted by what hangs on it")
 
     def joints_stand_as_the_frames_do(self, test):
-        """The URDF's joints at joint_states are tf's frames: a robot_state_publisher would say the same."""
+        """The URDF's joints at joint_states are tf's frames: a robot_state_publisher would publish the same."""
         robot = xml.fromstring(rospy.get_param("/robot_description"))
         joints = one_of("/joint_states", JointState)
         test.assertEqual(sorted(joints.name), ["cup_pitch", "cup_yaw", "slider"])
@@ -94,21 +94,21 @@ class Tree:
 
     def every_message_is_in_it(self, test):
         """One of each topic that is of a place names a frame of the tree."""
-        heard, news = {}, threading.Condition()
+        received, news = {}, threading.Condition()
         wanted = {topic: kind for topic, kind in rospy.get_published_topics()
                   if not topic.startswith(NOWHERE) and not topic.startswith("/mavros/setpoint_raw/attitude")}
 
-        def hear(message, topic):
+        def take(message, topic):
             with news:
-                heard[topic] = message
+                received[topic] = message
                 news.notify_all()
-        subscribers = [rospy.Subscriber(topic, roslib.message.get_message_class(kind), hear, topic)
+        subscribers = [rospy.Subscriber(topic, roslib.message.get_message_class(kind), take, topic)
                        for topic, kind in wanted.items()]
         with news:
-            news.wait_for(lambda: len(heard) == len(wanted), 5)
+            news.wait_for(lambda: len(received) == len(wanted), 5)
         for one in subscribers:
             one.unregister()
-        frames = {topic: message.header.frame_id for topic, message in heard.items() if hasattr(message, "header")}
+        frames = {topic: message.header.frame_id for topic, message in received.items() if hasattr(message, "header")}
         test.assertGreater(len(frames), 10, frames)
         known = self.buffer.all_frames_as_string()
         for topic, frame in frames.items():

@@ -50,8 +50,8 @@ TEST_F(VehicleModes, WithoutSetPointsItHoldsAfterHalfASecond) {
     EXPECT_EQ(mode_.mode(), kHold);
     ASSERT_NE(held(), nullptr);
     EXPECT_TRUE(held()->p_W_m.isApprox(Vector3(0.5, 0.0, 0.0)));
-    EXPECT_FALSE(update(1.52));                // said once
-    mode_.set_point(VelocitySetpoint{}, 1.6);  // who comes back asks for the mode anew
+    EXPECT_FALSE(update(1.52));                // reported once
+    mode_.set_point(VelocitySetpoint{}, 1.6);  // after that the mode must be requested anew
     (void)update(1.6);
     EXPECT_EQ(mode_.mode(), kHold);
 }

@@ -11,7 +11,7 @@
 #include "adapters/ros2/dds/codec.hpp"
 #include "adapters/ros2/dds/entities.hpp"
 
-// What a participant tells of its nodes on the topic ros_discovery_info, laid out as
+// What a participant publishes of its nodes on the topic ros_discovery_info, laid out as
 // rmw_dds_common's ParticipantEntitiesInfo: by it the ros2 command line knows nodes, and whose a
 // topic is.
 namespace limpet::ros2 {
@@ -54,11 +54,11 @@ template <std::size_t N>
         return made;
     };
     DiscoveryInfo<N> info{.participant = gid(participant), .nodes = {}};
-    auto& told = info.nodes.emplace_back();
-    told.space = node.space;
-    told.name = node.name;
-    std::transform(readers.begin(), readers.end(), std::back_inserter(told.readers), gid);
-    std::transform(writers.begin(), writers.end(), std::back_inserter(told.writers), gid);
+    auto& entry = info.nodes.emplace_back();
+    entry.space = node.space;
+    entry.name = node.name;
+    std::transform(readers.begin(), readers.end(), std::back_inserter(entry.readers), gid);
+    std::transform(writers.begin(), writers.end(), std::back_inserter(entry.writers), gid);
     return encode(info);
 }
 

@@ -54,13 +54,13 @@ SampleId id_of(const rtps::SampleIdentity& from) {
 /// What readers and writers have in common.
 template <class Qos>
 void set(Qos& qos, const std::string& type, const Profile& profile) {
-    // As every endpoint of ROS 2 since Iron tells it: rmw_cyclonedds warns of each that does not.
+    // As every endpoint of ROS 2 since Iron: rmw_cyclonedds warns of each without.
     const auto* const hash = std::lower_bound(
         std::begin(kTypeHashes), std::end(kTypeHashes), type,
         [](const auto& row, const std::string& wanted) { return row.first < wanted; });
     if (hash != std::end(kTypeHashes) && hash->first == type) {
-        const std::string told = "typehash=" + std::string(hash->second) + ";";
-        qos.user_data().assign(told.begin(), told.end());
+        const std::string hash_text = "typehash=" + std::string(hash->second) + ";";
+        qos.user_data().assign(hash_text.begin(), hash_text.end());
     }
     qos.reliability().kind =
         profile.reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
@@ -248,8 +248,8 @@ private:
 class FastReader final : public DataReader, private fast::DataReaderListener {
 public:
     FastReader(std::shared_ptr<Participant::Inside> inside, fast::Topic* topic,
-               const Profile& profile, Hear hear)
-        : inside_(std::move(inside)), hear_(std::move(hear)) {
+               const Profile& profile, Receive receive)
+        : inside_(std::move(inside)), receive_(std::move(receive)) {
         fast::DataReaderQos qos = fast::DATAREADER_QOS_DEFAULT;
         set(qos, topic->get_type_name(), profile);
         reader_ = inside_->subscriber->create_datareader(topic, qos, nullptr);
@@ -281,14 +281,14 @@ private:
                 return;
             }
             if (info.valid_data) {
-                hear_(std::move(bytes),
-                      {id_of(info.sample_identity), id_of(info.related_sample_identity)});
+                receive_(std::move(bytes),
+                         {id_of(info.sample_identity), id_of(info.related_sample_identity)});
             }
         }
     }
 
     std::shared_ptr<Participant::Inside> inside_;
-    Hear hear_;
+    Receive receive_;
     std::mutex mutex_;
     fast::DataReader* reader_ = nullptr;
 };
@@ -309,9 +309,9 @@ std::unique_ptr<DataWriter> Participant::write_to(const std::string& topic, cons
 
 std::unique_ptr<DataReader> Participant::read_from(const std::string& topic,
                                                    const std::string& type, const Profile& profile,
-                                                   Hear hear) {
+                                                   Receive receive) {
     return std::make_unique<FastReader>(inside_, inside_->topic(topic, type), profile,
-                                        std::move(hear));
+                                        std::move(receive));
 }
 
 }  // namespace limpet::ros2::dds

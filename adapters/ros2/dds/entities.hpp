@@ -23,9 +23,9 @@ struct SampleId {
 };
 struct Sample {
     SampleId id;
-    SampleId related;  ///< what it says it belongs to
+    SampleId related;  ///< the sample that it refers to
 };
-using Hear = std::function<void(Bytes, const Sample&)>;
+using Receive = std::function<void(Bytes, const Sample&)>;
 
 class DataWriter {
 public:
@@ -60,7 +60,7 @@ public:
                                                        const Profile& profile);
     [[nodiscard]] std::unique_ptr<DataReader> read_from(const std::string& topic,
                                                         const std::string& type,
-                                                        const Profile& profile, Hear hear);
+                                                        const Profile& profile, Receive receive);
 
     struct Inside;
 

@@ -18,26 +18,26 @@ using dds::Guid;
 struct Node::Inside {
     explicit Inside(const NodeSettings& given) : settings(given), participant(given) {
         discovery_ = participant.write_to(kDiscoveryTopic, kDiscoveryType, kLatched);
-        tell();
+        publish();
     }
 
     void add(const Guid& guid, bool is_reader) {
         const std::lock_guard lock(mutex_);
         (is_reader ? readers_ : writers_).insert(guid);
-        tell();
+        publish();
     }
     void remove(const Guid& guid) {
         const std::lock_guard lock(mutex_);
         readers_.erase(guid);
         writers_.erase(guid);
-        tell();
+        publish();
     }
 
     NodeSettings settings;
     dds::Participant participant;
 
 private:
-    void tell() {
+    void publish() {
         discovery_->write(
             settings.gid_bytes == 24
                 ? discovery_bytes<24>(settings, participant.guid(), readers_, writers_)
@@ -83,9 +83,9 @@ std::unique_ptr<ListedWriter> writer(const std::shared_ptr<Node::Inside>& inside
 }
 std::unique_ptr<ListedReader> reader(const std::shared_ptr<Node::Inside>& inside,
                                      const std::string& topic, const std::string& type,
-                                     const Profile& profile, dds::Hear hear) {
+                                     const Profile& profile, dds::Receive receive) {
     return std::make_unique<ListedReader>(
-        inside, inside->participant.read_from(topic, type, profile, std::move(hear)), true);
+        inside, inside->participant.read_from(topic, type, profile, std::move(receive)), true);
 }
 
 class TopicWriter final : public Writer {
@@ -136,13 +136,13 @@ public:
         : way_(inside->settings.services),
           replies_(writer(inside, "rr" + service + "Reply", response_type, kServices)),
           serve_(std::move(serve)),
-          requests_(reader(
-              inside, "rq" + service + "Request", request_type, kServices,
-              [this](Bytes bytes, const dds::Sample& sample) { hear(std::move(bytes), sample); })) {
-    }
+          requests_(reader(inside, "rq" + service + "Request", request_type, kServices,
+                           [this](Bytes bytes, const dds::Sample& sample) {
+                               receive(std::move(bytes), sample);
+                           })) {}
 
 private:
-    void hear(Bytes bytes, const dds::Sample& sample) {
+    void receive(Bytes bytes, const dds::Sample& sample) {
         if (way_ == ServiceWay::cyclone) {
             if (const auto header = header_of(bytes)) {
                 serve_(std::move(bytes),
@@ -154,7 +154,7 @@ private:
             }
             return;
         }
-        // Who asked is known by its writer, or by the reader of replies that it names.
+        // A client is known by its writer, or by the reader of replies that it names.
         SampleId to = sample.id;
         const bool named = sample.related.guid != Guid{};
         if (named) {
@@ -171,8 +171,8 @@ private:
 
     using Clock = std::chrono::steady_clock;
 
-    /// Who asks may be known before its reader of replies is; half a second after it asked it is,
-    /// or has gone. rmw_fastrtps waits 0.1 s, which on a busy machine is too short.
+    /// A request may come before the reader of its reply is matched; half a second later it is, or
+    /// the client has gone. rmw_fastrtps waits 0.1 s, which on a busy machine is too short.
     static double patience_s(Clock::time_point since) {
         constexpr double kMatch_s = 0.5;
         return std::max(0.0,
@@ -191,9 +191,10 @@ public:
                   const std::string& request_type, const std::string& response_type)
         : way_(inside->settings.services),
           requests_(writer(inside, "rq" + service + "Request", request_type, kServices)),
-          replies_(reader(
-              inside, "rr" + service + "Reply", response_type, kServices,
-              [this](Bytes bytes, const dds::Sample& sample) { hear(std::move(bytes), sample); })) {
+          replies_(reader(inside, "rr" + service + "Reply", response_type, kServices,
+                          [this](Bytes bytes, const dds::Sample& sample) {
+                              receive(std::move(bytes), sample);
+                          })) {
         const Guid guid = (*requests_)->guid();
         for (std::size_t i = 0; i < sizeof client_; ++i) {  // any number that is ours alone
             client_ = client_ * 256 + (guid[i + 8] ^ guid[i]);
@@ -215,14 +216,14 @@ public:
         } else {
             asked_ = (*requests_)->write(request, {.guid = (*replies_)->guid()});
         }
-        heard_.wait_for(lock, std::chrono::duration<double>(patience_s),
-                        [this] { return answer_.has_value(); });
+        received_.wait_for(lock, std::chrono::duration<double>(patience_s),
+                           [this] { return answer_.has_value(); });
         asked_ = 0;
         return std::exchange(answer_, std::nullopt);
     }
 
 private:
-    void hear(Bytes bytes, const dds::Sample& sample) {
+    void receive(Bytes bytes, const dds::Sample& sample) {
         std::int64_t number = sample.related.number;
         bool ours = sample.related.guid == (*requests_)->guid() ||
                     sample.related.guid == (*replies_)->guid();
@@ -234,14 +235,14 @@ private:
         const std::lock_guard lock(mutex_);
         if (ours && number == asked_) {
             answer_ = std::move(bytes);
-            heard_.notify_all();
+            received_.notify_all();
         }
     }
 
     ServiceWay way_;
     std::uint64_t client_ = 0;
     std::mutex mutex_;
-    std::condition_variable heard_;
+    std::condition_variable received_;
     std::optional<Bytes> answer_;
     std::int64_t number_ = 0;
     std::int64_t asked_ = 0;  ///< number of the call that waits; 0: none
@@ -264,10 +265,11 @@ std::unique_ptr<Writer> Node::advertise(const std::string& topic, const std::str
 }
 
 Handle Node::subscribe(const std::string& topic, const std::string& type, const Profile& profile,
-                       std::function<void(Bytes)> hear) {
-    return reader(
-        inside_, "rt" + topic, type, profile,
-        [hear = std::move(hear)](Bytes bytes, const dds::Sample&) { hear(std::move(bytes)); });
+                       std::function<void(Bytes)> receive) {
+    return reader(inside_, "rt" + topic, type, profile,
+                  [receive = std::move(receive)](Bytes bytes, const dds::Sample&) {
+                      receive(std::move(bytes));
+                  });
 }
 
 Handle Node::serve(const std::string& service, const std::string& request_type,

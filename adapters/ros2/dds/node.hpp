@@ -63,7 +63,7 @@ public:
                                                     const std::string& type,
                                                     const Profile& profile);
     [[nodiscard]] Handle subscribe(const std::string& topic, const std::string& type,
-                                   const Profile& profile, std::function<void(Bytes)> hear);
+                                   const Profile& profile, std::function<void(Bytes)> receive);
     using Reply = std::function<void(const Bytes&)>;
     /// @param serve  may reply later, from another thread
     [[nodiscard]] Handle serve(const std::string& service, const std::string& request_type,

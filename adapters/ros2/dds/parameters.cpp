@@ -110,10 +110,10 @@ std::vector<Handle> serve_parameters(Node& node) {
         serve<DescribeParameters>(node, "describe_parameters",
                                   [&node](const auto& request, auto& response) {
                                       for (const std::string& name : request.names) {
-                                          auto& told = response.descriptors.emplace_back();
-                                          told.name = name;
-                                          told.type = value_of(node, name).type;
-                                          told.read_only = 1;
+                                          auto& descriptor = response.descriptors.emplace_back();
+                                          descriptor.name = name;
+                                          descriptor.type = value_of(node, name).type;
+                                          descriptor.read_only = 1;
                                       }
                                   }),
         serve<SetParameters>(node, "set_parameters",

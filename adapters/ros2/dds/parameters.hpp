@@ -7,8 +7,8 @@
 
 namespace limpet::ros2 {
 
-/// The services by which ROS 2 asks a node for its parameters: list, get, types, describe, set.
-/// They are read once when a node starts: who sets one is told so.
+/// The services with which ROS 2 reads the parameters of a node: list, get, types, describe, set.
+/// A node reads them once, at its start: a request to set one is refused.
 /// @param node  outlives them
 [[nodiscard]] std::vector<Handle> serve_parameters(Node& node);
 

@@ -166,15 +166,15 @@ std::string NodeSettings::full_name() const {
 }
 
 std::string NodeSettings::resolve(std::string_view given) const {
-    const auto absolute = [this](std::string_view said) {
-        if (said.starts_with('/')) {
-            return std::string(said);
+    const auto absolute = [this](std::string_view topic) {
+        if (topic.starts_with('/')) {
+            return std::string(topic);
         }
-        if (said.starts_with('~')) {
-            said.remove_prefix(said.starts_with("~/") ? 2 : 1);
-            return full_name() + "/" + std::string(said);
+        if (topic.starts_with('~')) {
+            topic.remove_prefix(topic.starts_with("~/") ? 2 : 1);
+            return full_name() + "/" + std::string(topic);
         }
-        return (space == "/" ? "/" : space + "/") + std::string(said);
+        return (space == "/" ? "/" : space + "/") + std::string(topic);
     };
     const std::string name_in_full = absolute(given);
     for (const auto& [from, to] : remaps) {

@@ -13,7 +13,7 @@ namespace limpet::ros2 {
 /// Who else is looked for.
 enum class Range {
     localhost,  ///< on this machine, over loopback alone, without multicast
-    subnet,     ///< by multicast, as ROS 2 does unless it is told otherwise
+    subnet,     ///< by multicast, as ROS 2 does by default
     off,        ///< nobody
 };
 
@@ -23,7 +23,7 @@ enum class ServiceWay {
     cyclone,   ///< rmw_cyclonedds: sixteen bytes before the message
 };
 
-/// What a ROS 2 node is told, by the environment and by its command line.
+/// Settings of a ROS 2 node, from the environment and its command line.
 struct NodeSettings {
     std::string name;
     std::string space = "/";                                      ///< its namespace, absolute

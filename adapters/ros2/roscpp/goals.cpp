@@ -15,15 +15,15 @@ Goals::Goals(const ros::NodeHandle& node, const std::string& action,
       unknown_(std::move(unknown)),
       status_(node.advertise<GoalStatusArray>(action + "/_action/status", 1, true)),
       cancels_(node.advertiseService(action + "/_action/cancel_goal", &Goals::cancel, this)) {
-    tell();
+    publish();
 }
 
 ros::Time Goals::accept(const GoalId& id) {
     Goal& goal = goals_[id.uuid];
-    goal.told.goal_info = {.goal_id = id, .stamp = ros::Time::now()};
-    goal.told.status = GoalStatus::STATUS_EXECUTING;
-    tell();
-    return goal.told.goal_info.stamp;
+    goal.entry.goal_info = {.goal_id = id, .stamp = ros::Time::now()};
+    goal.entry.status = GoalStatus::STATUS_EXECUTING;
+    publish();
+    return goal.entry.goal_info.stamp;
 }
 
 void Goals::finish(const GoalId& id, std::int8_t status, limpet::ros2::Bytes result) {
@@ -32,7 +32,7 @@ void Goals::finish(const GoalId& id, std::int8_t status, limpet::ros2::Bytes res
         return;
     }
     Goal& goal = found->second;
-    goal.told.status = status;
+    goal.entry.status = status;
     goal.result = std::move(result);
     for (const Reply& reply : std::exchange(goal.waiting, {})) {
         reply(goal.result);
@@ -42,7 +42,7 @@ void Goals::finish(const GoalId& id, std::int8_t status, limpet::ros2::Bytes res
         goals_.erase(over_.front());
         over_.pop_front();
     }
-    tell();
+    publish();
 }
 
 void Goals::give_result(const GoalId& id, const Reply& reply) {
@@ -71,26 +71,26 @@ bool Goals::cancel(CancelGoalRequest& request, CancelGoalResponse& response) {
     };
     for (auto& [key, goal] : goals_) {
         const bool meant = (one && key == named) || (!one && !timed) ||
-                           (timed && not_after(goal.told.goal_info.stamp, until));
-        if (meant && goal.told.status == GoalStatus::STATUS_EXECUTING) {
-            goal.told.status = GoalStatus::STATUS_CANCELING;
-            response.goals_canceling.push_back(goal.told.goal_info);
+                           (timed && not_after(goal.entry.goal_info.stamp, until));
+        if (meant && goal.entry.status == GoalStatus::STATUS_EXECUTING) {
+            goal.entry.status = GoalStatus::STATUS_CANCELING;
+            response.goals_canceling.push_back(goal.entry.goal_info);
         }
     }
     if (one && !timed && response.goals_canceling.empty()) {
         response.return_code = CancelGoalResponse::ERROR_GOAL_TERMINATED;
     }
-    tell();
+    publish();
     for (const action_msgs::GoalInfo& goal : response.goals_canceling) {
         cancel_(goal.goal_id);
     }
     return true;
 }
 
-void Goals::tell() const {
+void Goals::publish() const {
     GoalStatusArray all;
     for (const auto& [key, goal] : goals_) {
-        all.status_list.push_back(goal.told);
+        all.status_list.push_back(goal.entry);
     }
     status_.publish(all);
 }

@@ -28,7 +28,7 @@ void end(int /*signal*/) {
     over = true;
 }
 
-/// As rcl has /rosout: who comes later hears what was said.
+/// As rcl has /rosout: late subscribers receive earlier lines.
 constexpr ros2::Profile kLog{.reliable = true, .transient_local = true, .depth = 1000};
 
 /// A process is a node, as in ROS 1. Used by its main thread, but for what mutex guards.
@@ -50,11 +50,11 @@ struct Core {
     std::atomic<std::int64_t> clock_ns{0};
     ros2::Handle clock;
 
-    std::map<std::string, std::unique_ptr<ros2::Writer>> told;   ///< by a parameter's name
-    std::map<std::string, ros2::Handle> asked;                   ///< by a parameter's name
+    std::map<std::string, std::unique_ptr<ros2::Writer>> published;  ///< by a parameter's name
+    std::map<std::string, ros2::Handle> subscribed;                  ///< by a parameter's name
     std::mutex mutex;                                            ///< of what DDS's threads touch
     std::map<std::string, std::weak_ptr<ros2::Client>> clients;  ///< by their services
-    std::map<std::string, std::string> heard;                    ///< of parameters
+    std::map<std::string, std::string> received;                 ///< of parameters
     std::set<std::string> unsound;                               ///< topics
 };
 std::unique_ptr<Core> core;
@@ -116,7 +116,7 @@ void run_timers(double now_s) {
     }
 }
 
-/// Until the next timer is due [s]; in simulated time the clock tells.
+/// Until the next timer is due [s]; in simulated time the clock wakes it.
 double idle_s(double now_s) {
     double idle = 0.1;
     for (const auto& weak : core->timers) {
@@ -128,16 +128,16 @@ double idle_s(double now_s) {
     return std::max(idle, 0.0);
 }
 
-void hear_clock() {
+void receive_clock() {
     core->simulated = true;
-    core->clock =
-        core->node.subscribe(core->node.settings().resolve("/clock"), rosgraph_msgs::Clock::kType,
-                             {.reliable = false, .depth = 1}, [](const ros2::Bytes& bytes) {
-                                 if (const auto heard = ros2::decode<rosgraph_msgs::Clock>(bytes)) {
-                                     core->clock_ns = std::llround(heard->clock.toSec() * 1e9);
-                                     core->queue.poke();
-                                 }
-                             });
+    core->clock = core->node.subscribe(
+        core->node.settings().resolve("/clock"), rosgraph_msgs::Clock::kType,
+        {.reliable = false, .depth = 1}, [](const ros2::Bytes& bytes) {
+            if (const auto received = ros2::decode<rosgraph_msgs::Clock>(bytes)) {
+                core->clock_ns = std::llround(received->clock.toSec() * 1e9);
+                core->queue.poke();
+            }
+        });
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ void init(int argc, char** argv, const std::string& name) {
     std::signal(SIGINT, end);
     std::signal(SIGTERM, end);
     if (simulated) {
-        hear_clock();
+        receive_clock();
     }
 }
 
@@ -187,24 +187,24 @@ const std::string& this_node::getName() {
 
 bool param::get(const std::string& name, XmlRpcValue& value) {
     if (name == core->name) {
-        YamlNode own = core->node.settings().parameters;  // ROS's one is not the node's business
+        YamlNode own = core->node.settings().parameters;  // use_sim_time is ROS's parameter
         std::erase_if(own.children, [](const YamlNode& one) { return one.key == "use_sim_time"; });
         value = value_of(own);
         return true;
     }
-    if (!core->asked.contains(name)) {
-        core->asked[name] = core->node.subscribe(
+    if (!core->subscribed.contains(name)) {
+        core->subscribed[name] = core->node.subscribe(
             name, std_msgs::String::kType, ros2::kLatched, [name](const ros2::Bytes& bytes) {
                 if (const auto message = ros2::decode<std_msgs::String>(bytes)) {
-                    const std::lock_guard hearing(core->mutex);
-                    core->heard[name] = message->data;
+                    const std::lock_guard lock(core->mutex);
+                    core->received[name] = message->data;
                 }
             });
     }
     std::string text;
     {
         const std::lock_guard lock(core->mutex);
-        text = core->heard[name];
+        text = core->received[name];
     }
     if (text.empty()) {
         return false;
@@ -212,13 +212,13 @@ bool param::get(const std::string& name, XmlRpcValue& value) {
     try {
         value = value_of(limpet::scenario::parse_yaml(text, name));
         return true;
-    } catch (const limpet::InputError&) {  // it is somebody else's
+    } catch (const limpet::InputError&) {  // it is another program's
         return false;
     }
 }
 
 void param::set(const std::string& name, const XmlRpcValue& value) {
-    auto& writer = core->told[name];
+    auto& writer = core->published[name];
     if (!writer) {
         writer = core->node.advertise(name, std_msgs::String::kType, ros2::kLatched);
     }
@@ -262,14 +262,14 @@ ros2::Profile detail::profile_of(const std::string& type, std::uint32_t queue) {
                 : ros2::Profile{.depth = static_cast<int>(std::clamp(queue, 1U, kMost))};
 }
 
-void detail::tell_unsound(const std::string& topic, const std::string& type) {
+void detail::report_unsound(const std::string& topic, const std::string& type) {
     const std::lock_guard lock(core->mutex);
     if (core->unsound.insert(topic).second) {
         ROS_WARN("%s: what came is no %s: left unread", topic.c_str(), type.c_str());
     }
 }
 
-void detail::say(Level level, const Place& place, const char* format, ...) {
+void detail::print(Level level, const Place& place, const char* format, ...) {
     std::va_list values, again;
     va_start(values, format);
     va_copy(again, values);

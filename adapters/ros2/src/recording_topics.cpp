@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "adapters/ros/src/heard.hpp"
+#include "adapters/ros/src/received.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/schema.hpp"
 #include "limpet/record/topics.hpp"
@@ -103,9 +103,9 @@ private:
 
     /// From the flight's time to /clock's.
     static void shift(ros2::Bytes& bytes) {
-        const auto told = ros2::decode<Stamp>(bytes);
-        const ros2::Bytes stamp =
-            ros2::encode(Stamp{::ros::Time(told.value().stamp.toSec() + Heard::kClockStart_s)});
+        const auto flight = ros2::decode<Stamp>(bytes);
+        const ros2::Bytes stamp = ros2::encode(
+            Stamp{::ros::Time(flight.value().stamp.toSec() + Received::kClockStart_s)});
         std::copy(stamp.begin(), stamp.end(), bytes.begin());
     }
 

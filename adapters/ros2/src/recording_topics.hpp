@@ -7,9 +7,9 @@
 
 namespace limpet::ros {
 
-/// Tells on topics what a recording holds, all but the scene, which the vehicle tells itself. Its
+/// Publishes what a recording holds, all but the scene, which the vehicle publishes itself. Its
 /// messages are ROS 2's: ROS 1 has none of these.
-/// @return null where there is nobody to tell
+/// @return null where it has no topics
 [[nodiscard]] std::unique_ptr<record::MessageSink> recording_topics();
 
 }  // namespace limpet::ros

@@ -41,25 +41,25 @@ constexpr const char* kCustomInfo =
 
 SimulatorFeatures features() {
     using F = SimulatorFeatures;
-    SimulatorFeatures told;
-    told.features = {F::ENTITY_BOUNDS,
-                     F::ENTITY_CATEGORIES,
-                     F::ENTITY_STATE_GETTING,
-                     F::ENTITY_STATE_SETTING,
-                     F::ENTITY_INFO_GETTING,
-                     F::SIMULATION_RESET,
-                     F::SIMULATION_STATE_GETTING,
-                     F::SIMULATION_STATE_SETTING,
-                     F::SIMULATION_STATE_PAUSE,
-                     F::STEP_SIMULATION_SINGLE,
-                     F::STEP_SIMULATION_MULTIPLE,
-                     F::STEP_SIMULATION_ACTION,
-                     F::WORLD_LOADING,
-                     F::WORLD_UNLOADING,
-                     F::WORLD_INFO_GETTING,
-                     F::AVAILABLE_WORLDS};
-    told.custom_info = kCustomInfo;
-    return told;
+    SimulatorFeatures all;
+    all.features = {F::ENTITY_BOUNDS,
+                    F::ENTITY_CATEGORIES,
+                    F::ENTITY_STATE_GETTING,
+                    F::ENTITY_STATE_SETTING,
+                    F::ENTITY_INFO_GETTING,
+                    F::SIMULATION_RESET,
+                    F::SIMULATION_STATE_GETTING,
+                    F::SIMULATION_STATE_SETTING,
+                    F::SIMULATION_STATE_PAUSE,
+                    F::STEP_SIMULATION_SINGLE,
+                    F::STEP_SIMULATION_MULTIPLE,
+                    F::STEP_SIMULATION_ACTION,
+                    F::WORLD_LOADING,
+                    F::WORLD_UNLOADING,
+                    F::WORLD_INFO_GETTING,
+                    F::AVAILABLE_WORLDS};
+    all.custom_info = kCustomInfo;
+    return all;
 }
 
 Result done(const std::string& obstacle, std::uint8_t otherwise = Result::RESULT_OPERATION_FAILED) {
@@ -212,14 +212,14 @@ void SimulationServices::serve_steps() {
 
 void SimulationServices::take_steps(StepsServer::GoalHandle goal) {
     const auto end = [](StepsServer::GoalHandle one, const std::string& obstacle) {
-        SimulateStepsResult told;
-        told.result = done(obstacle);
+        SimulateStepsResult ended;
+        ended.result = done(obstacle);
         if (obstacle.empty()) {
-            one.setSucceeded(told);
+            one.setSucceeded(ended);
         } else if (obstacle == "canceled") {
-            one.setCanceled(told);
+            one.setCanceled(ended);
         } else {
-            one.setAborted(told);
+            one.setAborted(ended);
         }
     };
     goal.setAccepted();
@@ -265,15 +265,15 @@ void SimulationServices::serve_worlds() {
 // --- entities -----------------------------------------------------------------------------------
 
 void SimulationServices::serve_entities() {
-    const auto find = [this](const std::string& name, Result& told) -> std::optional<Entity> {
+    const auto find = [this](const std::string& name, Result& outcome) -> std::optional<Entity> {
         const std::vector<Entity> all = entities_of(simulator_);
         const auto found = std::find_if(all.begin(), all.end(),
                                         [&](const Entity& one) { return one.name == name; });
         if (found == all.end()) {
-            told = result(Result::RESULT_NOT_FOUND, fmt::format("\"{}\": no such entity", name));
+            outcome = result(Result::RESULT_NOT_FOUND, fmt::format("\"{}\": no such entity", name));
             return std::nullopt;
         }
-        told = result(Result::RESULT_OK);
+        outcome = result(Result::RESULT_OK);
         return *found;
     };
     serve<GetEntities>("get_entities", [this](const auto& request, auto& response) {

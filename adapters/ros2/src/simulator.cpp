@@ -9,7 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/collision.hpp"
-#include "limpet/simulation/result_json.hpp"
+#include "limpet/simulation/flight_text.hpp"
 #include "limpet/suction/cup.hpp"
 
 namespace limpet::ros {
@@ -27,7 +27,7 @@ std::filesystem::path recording_of(const std::filesystem::path& file, int flight
            fmt::format("{}-{}{}", file.stem().string(), flight, file.extension().string());
 }
 
-void tell(const Event& event) {
+void log_event(const Event& event) {
     ROS_INFO("%7.3f  %s %s%s%s", event.time_s, std::string(event.station).c_str(),
              std::string(to_string(event.name)).c_str(), event.reason.empty() ? "" : ": ",
              std::string(event.reason).c_str());
@@ -59,7 +59,7 @@ Simulator::Acceleration Simulator::acceleration() const {
 }
 
 double Simulator::clock_s() const {
-    return Heard::kClockStart_s + (flight_ ? seconds(flight_->state().tick) : 0.0);
+    return Received::kClockStart_s + (flight_ ? seconds(flight_->state().tick) : 0.0);
 }
 
 // --- one flight after another -------------------------------------------------------------------
@@ -71,7 +71,7 @@ void Simulator::begin() {
     pace_ = simulation::Pace(options_.speed);
     const std::filesystem::path recording = recording_of(options_.recording, ++flights_);
     if (!recording.empty() || seen_ != nullptr) {
-        log_.emplace(recording, *model_, simulation::FlightLog::Options{.beside = seen_});
+        log_.emplace(recording, *model_, simulation::FlightLog::Options{.mirror = seen_});
     }
 }
 
@@ -100,7 +100,7 @@ void Simulator::load(const SetupArguments& flight) {
     unload();
     arguments_ = flight;
     model_ = std::move(model);
-    tell_flight(flight);
+    publish_flight(flight);
     vehicle_ = std::make_unique<RosVehicle>(setup.scenario, options_.vehicle);
     begin();
     state_ = SimulatorState::stopped;
@@ -117,7 +117,8 @@ std::string Simulator::reset() {
     if (!flight_) {
         return kNoWorld;
     }
-    // What is heard begins anew by the flight's time going back, which after one tick it would not.
+    // What is received begins anew by the flight's time going back, which after one tick it would
+    // not.
     const bool has_hardly_begun = flight_->state().tick == 1;
     end();
     if (has_hardly_begun) {
@@ -155,7 +156,7 @@ std::string Simulator::pause() {
     return "";
 }
 
-std::string Simulator::step(std::uint64_t ticks, std::function<void(const Stepping&)> tell) {
+std::string Simulator::step(std::uint64_t ticks, std::function<void(const Stepping&)> report) {
     if (state_ != SimulatorState::paused) {
         return "the simulation is not paused";
     }
@@ -169,7 +170,7 @@ std::string Simulator::step(std::uint64_t ticks, std::function<void(const Steppi
         return "0 steps: must be 1 or more";
     }
     stepping_ = {.left = ticks};
-    tell_ = std::move(tell);
+    report_ = std::move(report);
     return "";
 }
 
@@ -177,7 +178,7 @@ void Simulator::give_up_stepping(const std::string& why) {
     if (stepping_.left > 0) {
         Stepping given_up = std::exchange(stepping_, {});
         given_up.obstacle = why;
-        std::exchange(tell_, nullptr)(given_up);
+        std::exchange(report_, nullptr)(given_up);
     }
 }
 
@@ -191,7 +192,7 @@ void Simulator::tick() {
     const guidance::EventList& happened = flight_->tick();
     for (std::size_t i = 0; i < happened.count; ++i) {
         events_.push_back(happened.events[i]);
-        tell(happened.events[i]);
+        log_event(happened.events[i]);
     }
     if (log_) {
         log_->tick(*model_, flight_->state(), happened);
@@ -200,9 +201,9 @@ void Simulator::tick() {
     if (stepping_.left > 0) {
         ++stepping_.done;
         --stepping_.left;
-        const Stepping told = stepping_;
-        const auto to = told.left == 0 ? std::exchange(tell_, nullptr) : tell_;
-        to(told);
+        const Stepping now = stepping_;
+        const auto to = now.left == 0 ? std::exchange(report_, nullptr) : report_;
+        to(now);
     } else {
         pace_.wait_until(seconds(flight_->state().tick));
     }

@@ -21,7 +21,7 @@ namespace limpet::ros {
 /// Numbered as simulation_interfaces/SimulationState.
 enum class SimulatorState : std::uint8_t {
     stopped,   ///< at the flight's start, before its first tick
-    playing,   ///< in the pace that was asked for
+    playing,   ///< at the pace of `speed`
     paused,    ///< between two ticks
     quitting,  ///< nothing more will happen
     no_world,  ///< there is no flight
@@ -33,7 +33,7 @@ struct SimulatorOptions {
     /// It begins stopped, and a flight that has ended is paused there; else it plays at once and
     /// quits with its flight.
     bool stopped = false;
-    std::filesystem::path recording;  ///< of the first flight, others beside it; empty: none
+    std::filesystem::path recording;  ///< of the first flight, others next to it; empty: none
 };
 
 /// How a step of many ticks goes on.
@@ -44,10 +44,10 @@ struct Stepping {
 
 /// One flight after another of a vehicle with ROS at its boundary, and what may be done with them
 /// from outside: play, pause, step, begin anew, fly something else, be put somewhere. One thread
-/// calls; what a word cannot do it says, and has changed nothing.
+/// calls. A call that fails returns the reason and changes nothing.
 class Simulator {
 public:
-    /// @param seen  takes what a recording takes; null: nobody
+    /// @param seen  takes what a recording takes; may be null
     /// @throws InputError for a flight that cannot be had
     Simulator(const SimulatorOptions& options, const SetupArguments& flight,
               record::MessageSink* seen);
@@ -81,15 +81,16 @@ public:
     void load(const SetupArguments& flight);
     void unload();
     /// Ticks of 1 ms while paused, as fast as they go.
-    /// @param tell  after each, and once more where it ends before its time
-    [[nodiscard]] std::string step(std::uint64_t ticks, std::function<void(const Stepping&)> tell);
-    /// Of a step that goes on; its tell() hears of it.
+    /// @param report  after each, and once more where it ends before its time
+    [[nodiscard]] std::string step(std::uint64_t ticks,
+                                   std::function<void(const Stepping&)> report);
+    /// Of a step that goes on; its report() is called.
     void give_up_stepping(const std::string& why);
     /// Puts the vehicle there, so moving, at this instant; its autopilot knows it. Not while the
     /// cup holds, nor into wall or ground.
     [[nodiscard]] std::string place(const Kinematics& base);
 
-    /// Flies until it quits, or the flight ends and nobody is to be waited for.
+    /// Flies until it quits, or the flight ends and no client is waited for.
     /// @param listen  makes the calls that wait: for so long at most until there are any [s]
     void run(const std::function<void(double patience_s)>& listen);
 
@@ -112,7 +113,7 @@ private:
     simulation::Pace pace_;
     SimulatorState state_ = SimulatorState::no_world;
     Stepping stepping_;
-    std::function<void(const Stepping&)> tell_;
+    std::function<void(const Stepping&)> report_;
 };
 
 }  // namespace limpet::ros

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated vehicle as a node of ROS 2, and the simulator as simulation_interfaces have it. It
-// hovers before the wall until somebody flies it. ROS 1's is adapters/ros/src/vehicle_node.cpp,
-// which Gazebo's services stand beside.
+// A simulated vehicle as a node of ROS 2, with the services of simulation_interfaces. It hovers
+// before the wall until set-points come. ROS 1's is adapters/ros/src/vehicle_node.cpp.
 #include "adapters/ros2/src/recording_topics.hpp"
 #include "adapters/ros2/src/simulation_services.hpp"
 #include "adapters/ros2/src/simulator.hpp"
@@ -18,13 +17,8 @@ void vehicle_node() {
                     "begins stopped, and stays when a flight has ended, for clients of "
                     "simulation_interfaces",
                     "assumed: plays, and ends with its flight"});
-    std::vector<std::string_view> names = {"recording"};
-    for (const BoundParameter& row : rows) {
-        names.push_back(row.name);
-    }
-    const scenario::YamlNode parameters = node_parameters(names);
-    read_given(parameters, rows);
-    if (const scenario::YamlNode* const file = said(parameters, "recording")) {
+    const scenario::YamlNode parameters = node_parameters(rows, {"recording"});
+    if (const scenario::YamlNode* const file = given(parameters, "recording")) {
         options.recording = read_text(*file);
     }
     const std::unique_ptr<record::MessageSink> seen = recording_topics();
@@ -36,7 +30,7 @@ void vehicle_node() {
                 std::chrono::duration<double>(patience_s)));
     });
     if (simulator.state() == SimulatorState::quitting) {
-        ::ros::WallDuration(0.2).sleep();  // the answer to who asked for it is on its way
+        ::ros::WallDuration(0.2).sleep();  // until its answer has been sent
     }
 }
 

@@ -86,14 +86,14 @@ TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
                              const std::lock_guard lock(mutex_);
                              status_ = decode<limpet_ros::PerchingStatus>(bytes).value();
                          });
-    std::map<std::string, std::set<std::string>> log;  // of INFO, by who said it; by mutex_
+    std::map<std::string, std::set<std::string>> log;  // of INFO, by node; by mutex_
     const auto rosout =
         node_->subscribe("/rosout", rcl_interfaces::Log::kType,
                          {.transient_local = true, .depth = 100}, [&](const Bytes& bytes) {
-                             const auto said = decode<rcl_interfaces::Log>(bytes).value();
+                             const auto line = decode<rcl_interfaces::Log>(bytes).value();
                              const std::lock_guard lock(mutex_);
-                             if (said.level == rcl_interfaces::Log::INFO) {
-                                 log[said.name].insert(said.msg);
+                             if (line.level == rcl_interfaces::Log::INFO) {
+                                 log[line.name].insert(line.msg);
                              }
                          });
     const dds_entity_t poses =

@@ -79,12 +79,12 @@ public:
         take<dds_builtintopic_endpoint_t>(discovers, [&](const dds_builtintopic_endpoint_t& found) {
             std::array<std::uint8_t, 16> key{};
             std::copy_n(found.key.v, key.size(), key.begin());
-            void* told = nullptr;
+            void* reported = nullptr;
             std::size_t size = 0;
-            dds_qget_userdata(found.qos, &told, &size);
+            dds_qget_userdata(found.qos, &reported, &size);
             all[key] = {found.topic_name, found.type_name,
-                        std::string(static_cast<const char*>(told), size)};
-            dds_free(told);
+                        std::string(static_cast<const char*>(reported), size)};
+            dds_free(reported);
         });
     }
 

@@ -40,15 +40,15 @@ public:
         request.client = kClient;
         request.number = ++number_;
         dds_write(requests_, &request);
-        bool heard = false;
+        bool received = false;
         EXPECT_TRUE(soon([&] {
             Peer::take<Response>(replies_, [&](const Response& response) {
                 if (response.client == kClient && response.number == number_) {
-                    heard = true;
+                    received = true;
                     each(response);
                 }
             });
-            return heard;
+            return received;
         }));
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// vehicle_node as simulation_interfaces have it, asked by another DDS library: what it announces
+// vehicle_node by simulation_interfaces, called with another DDS library: what it announces
 // holds, and steps, pauses, resets and places act on the flight itself.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -168,15 +168,15 @@ TEST_F(Simulation, StepsAsAnActionAndStopsWhenCanceled) {
     EXPECT_FALSE(begin(1, 5));  // a goal has an id of its own
     EXPECT_EQ(ended(1), kSucceeded);
     EXPECT_NEAR(clock_s(state_of(kVehicle)), 1.005, 1e-9);
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> heard;
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> received;
     EXPECT_TRUE(soon([&] {
         Peer::take<simulation_interfaces_action_dds__SimulateSteps_FeedbackMessage_>(
             feedbacks, [&](const auto& feedback) {
-                heard.emplace_back(feedback.completed_steps, feedback.remaining_steps);
+                received.emplace_back(feedback.completed_steps, feedback.remaining_steps);
             });
-        return heard.size() >= 5;
+        return received.size() >= 5;
     }));
-    EXPECT_THAT(heard,
+    EXPECT_THAT(received,
                 testing::ElementsAre(testing::Pair(1, 4), testing::Pair(2, 3), testing::Pair(3, 2),
                                      testing::Pair(4, 1), testing::Pair(5, 0)));
 
@@ -193,15 +193,15 @@ TEST_F(Simulation, StepsAsAnActionAndStopsWhenCanceled) {
     EXPECT_EQ(ended(9), kUnknown);
     cancel.call([](auto& r) { r.goal_info.goal_id[0] = 2; },
                 [](const auto& response) { EXPECT_EQ(response.return_code, 3); });
-    std::vector<int> told(3, -1);
+    std::vector<int> reported(3, -1);
     EXPECT_TRUE(soon([&] {
         Peer::take<action_msgs_msg_dds__GoalStatusArray_>(statuses, [&](const auto& all) {
             for (std::uint32_t i = 0; i < all.status_list._length; ++i) {
                 const auto& one = all.status_list._buffer[i];
-                told.at(one.goal_info.goal_id[0] - 1U) = one.status;
+                reported.at(one.goal_info.goal_id[0] - 1U) = one.status;
             }
         });
-        return told == std::vector<int>{kSucceeded, kCanceled, kAborted};
+        return reported == std::vector<int>{kSucceeded, kCanceled, kAborted};
     }));
     const double stopped_s = clock_s(state_of(kVehicle));
     EXPECT_EQ(clock_s(state_of(kVehicle)), stopped_s);

@@ -14,19 +14,19 @@
 namespace limpet::ros2 {
 namespace {
 
-using Told = std::map<std::string, std::string>;  ///< user data, by topics
+using UserData = std::map<std::string, std::string>;  ///< user data, by topics
 
-Told told(dds_entity_t discovers, std::size_t count) {
+UserData reported(dds_entity_t discovers, std::size_t count) {
     Peer::Endpoints found;
     EXPECT_TRUE(soon([&] {
         Peer::discovered(discovers, found);
         return found.size() >= count;
     }));
-    Told told;
+    UserData reported;
     for (const auto& [key, endpoint] : found) {
-        told[endpoint.topic] = endpoint.user_data;
+        reported[endpoint.topic] = endpoint.user_data;
     }
-    return told;
+    return reported;
 }
 
 TEST(Ros2TypeHash, IsToldByReadersAndWriters) {
@@ -46,7 +46,7 @@ TEST(Ros2TypeHash, IsToldByReadersAndWriters) {
 
     const std::string of_trigger =
         "typehash=RIHS01_eeff2cd6fa5ad9d27cdf4dec64818317839b62f212a91e6b5304b634b2062c5f;";
-    const Told written = told(peer.discovers(DDS_BUILTIN_TOPIC_DCPSPUBLICATION), 5);
+    const UserData written = reported(peer.discovers(DDS_BUILTIN_TOPIC_DCPSPUBLICATION), 5);
     EXPECT_EQ(written.at("rt/pose"),
               "typehash=RIHS01_10f3786d7d40fd2b54367835614bff85d4ad3b5dab62bf8bca0cc232d73b4cd8;");
     EXPECT_EQ(written.at("rt/feedback"),
@@ -55,7 +55,7 @@ TEST(Ros2TypeHash, IsToldByReadersAndWriters) {
     EXPECT_NE(written.at("ros_discovery_info"), "");
     EXPECT_EQ(written.at("rt/other"), "");
 
-    const Told read = told(peer.discovers(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION), 2);
+    const UserData read = reported(peer.discovers(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION), 2);
     EXPECT_EQ(read.at("rt/state"),
               "typehash=RIHS01_11ba7686163d22281871f1cb42557e8957407469b0be813bdb1a8922c66e3131;");
     EXPECT_EQ(read.at("rq/perchRequest"), of_trigger);

@@ -63,11 +63,11 @@ TEST_F(Ros2Wire, ThePeerReadsAPose) {
     const dds_entity_t reader =
         peer_.reader(kPoseTopic, geometry_msgs_msg_dds__PoseStamped__desc, {.reliable = false});
     ASSERT_TRUE(soon([&] { return Peer::has_writer(reader); }));
-    bool heard = false;
+    bool received = false;
     EXPECT_TRUE(soon([&] {
         writer->write(encode(pose()));  // best effort: until one arrives
         Peer::take<PeerPose>(reader, [&](const PeerPose& read) {
-            heard = true;
+            received = true;
             EXPECT_EQ(read.header.stamp.sec, 12);
             EXPECT_EQ(read.header.stamp.nanosec, 250'000'000U);
             EXPECT_STREQ(read.header.frame_id, "map");
@@ -78,19 +78,19 @@ TEST_F(Ros2Wire, ThePeerReadsAPose) {
             EXPECT_EQ(read.pose.orientation.z, 0.6);
             EXPECT_EQ(read.pose.orientation.w, 0.8);
         });
-        return heard;
+        return received;
     }));
 }
 
 TEST_F(Ros2Wire, ThePeersPoseIsRead) {
     Node node(settings("limpet"));
     std::mutex mutex;
-    std::optional<geometry_msgs::PoseStamped> heard;
-    const auto subscription = node.subscribe("/limpet/pose", geometry_msgs::PoseStamped::kType,
-                                             kSensorData, [&](const Bytes& bytes) {
-                                                 const std::lock_guard lock(mutex);
-                                                 heard = decode<geometry_msgs::PoseStamped>(bytes);
-                                             });
+    std::optional<geometry_msgs::PoseStamped> received;
+    const auto subscription = node.subscribe(
+        "/limpet/pose", geometry_msgs::PoseStamped::kType, kSensorData, [&](const Bytes& bytes) {
+            const std::lock_guard lock(mutex);
+            received = decode<geometry_msgs::PoseStamped>(bytes);
+        });
     const dds_entity_t writer =
         peer_.writer(kPoseTopic, geometry_msgs_msg_dds__PoseStamped__desc, {.reliable = true});
     ASSERT_TRUE(soon([&] { return Peer::has_reader(writer); }));
@@ -100,13 +100,13 @@ TEST_F(Ros2Wire, ThePeersPoseIsRead) {
     EXPECT_TRUE(soon([&] {
         dds_write(writer, &sent);
         const std::lock_guard lock(mutex);
-        return heard.has_value();
+        return received.has_value();
     }));
-    EXPECT_EQ(heard->header.stamp.sec, 7);
-    EXPECT_EQ(heard->header.stamp.nsec, 8U);
-    EXPECT_EQ(heard->header.frame_id, frame);
-    EXPECT_EQ(heard->pose.position.z, 3.0);
-    EXPECT_EQ(heard->pose.orientation.w, -0.5);
+    EXPECT_EQ(received->header.stamp.sec, 7);
+    EXPECT_EQ(received->header.stamp.nsec, 8U);
+    EXPECT_EQ(received->header.frame_id, frame);
+    EXPECT_EQ(received->pose.position.z, 3.0);
+    EXPECT_EQ(received->pose.orientation.w, -0.5);
 }
 
 TEST_F(Ros2Wire, WhatStaysIsToldToWhoComesLater) {
@@ -140,20 +140,20 @@ TEST_F(Ros2Wire, WhatThePeerToldBeforeIsHeard) {
     dds_write(writer, &sent);
     Node node(settings("limpet"));
     std::mutex mutex;
-    std::vector<limpet_ros::State> heard;
+    std::vector<limpet_ros::State> received;
     const auto subscription = node.subscribe(
         "/mavros/state", limpet_ros::State::kType, kLatched, [&](const Bytes& bytes) {
             const std::lock_guard lock(mutex);
-            heard.push_back(decode<limpet_ros::State>(bytes).value());
+            received.push_back(decode<limpet_ros::State>(bytes).value());
         });
     ASSERT_TRUE(soon([&] {
         const std::lock_guard lock(mutex);
-        return !heard.empty();
+        return !received.empty();
     }));
-    EXPECT_EQ(heard[0].mode, mode);
-    EXPECT_EQ(heard[0].armed, 1);
-    EXPECT_EQ(heard[0].guided, 0);
-    EXPECT_EQ(heard[0].system_status, 4);
+    EXPECT_EQ(received[0].mode, mode);
+    EXPECT_EQ(received[0].armed, 1);
+    EXPECT_EQ(received[0].guided, 0);
+    EXPECT_EQ(received[0].system_status, 4);
 }
 
 TEST_F(Ros2Wire, AReliableReaderIsNotPromisedWhatIsSentOnce) {
@@ -194,9 +194,9 @@ TEST_F(Ros2Wire, TheDiscoveryInfoNamesTheNodeAndItsTopics) {
             written.clear();
             read.clear();
             ASSERT_EQ(info.node_entities_info_seq._length, 1U);
-            const auto& told = info.node_entities_info_seq._buffer[0];
-            name = told.node_name;
-            space = told.node_namespace;
+            const auto& reported = info.node_entities_info_seq._buffer[0];
+            name = reported.node_name;
+            space = reported.node_namespace;
             const auto names = [](const auto& gids, const auto& known, auto& into) {
                 for (std::uint32_t i = 0; i < gids._length; ++i) {
                     std::array<std::uint8_t, 16> key{};
@@ -207,8 +207,8 @@ TEST_F(Ros2Wire, TheDiscoveryInfoNamesTheNodeAndItsTopics) {
                     }
                 }
             };
-            names(told.writer_gid_seq, writers, written);
-            names(told.reader_gid_seq, readers, read);
+            names(reported.writer_gid_seq, writers, written);
+            names(reported.reader_gid_seq, readers, read);
         });
         const auto again = node.advertise("/again", std_msgs::String::kType, {});  // another info
         return written.size() >= 2 && read.size() >= 2;
@@ -225,23 +225,23 @@ TEST_F(Ros2Wire, TheDiscoveryInfoNamesTheNodeAndItsTopics) {
         Known("rq/uav1/perching_node/perchRequest", "std_srvs::srv::dds_::Trigger_Request_")));
 }
 
-/// Serves as std_srvs/Trigger, and says how often it was asked.
-Handle serve_trigger(Node& node, std::atomic<int>& asked) {
+/// Serves as std_srvs/Trigger, and counts the calls.
+Handle serve_trigger(Node& node, std::atomic<int>& calls) {
     return node.serve("/limpet/perch", std_srvs::TriggerRequest::kType,
                       std_srvs::TriggerResponse::kType,
-                      [&asked](const Bytes& bytes, const Node::Reply& reply) {
+                      [&calls](const Bytes& bytes, const Node::Reply& reply) {
                           EXPECT_TRUE(decode<std_srvs::TriggerRequest>(bytes));
                           std_srvs::TriggerResponse response;
                           response.success = 1;
-                          response.message = "begins " + std::to_string(++asked);
+                          response.message = "begins " + std::to_string(++calls);
                           reply(encode(response));
                       });
 }
 
 TEST_F(Ros2Wire, ANodesServiceAnswersAnother) {
     Node server(settings("server")), first(settings("first")), second(settings("second"));
-    std::atomic<int> asked = 0;
-    const auto service = serve_trigger(server, asked);
+    std::atomic<int> calls = 0;
+    const auto service = serve_trigger(server, calls);
     const auto of = [](Node& node) {
         return node.client("/limpet/perch", std_srvs::TriggerRequest::kType,
                            std_srvs::TriggerResponse::kType);
@@ -274,11 +274,11 @@ typename Service::Response called(Node& node, const std::string& name,
 }
 
 TEST_F(Ros2Wire, ParametersAreAskedForByService) {
-    NodeSettings told =
+    NodeSettings reported =
         read_settings("vehicle_node", {"--ros-args", "-p", "speed:=2.5", "-p", "seed:=7", "-p",
                                        "use_sim_time:=true", "-p", "scenario:=perch_concrete"});
-    told.domain = domain_;
-    Node node(told), other(settings("other"));
+    reported.domain = domain_;
+    Node node(reported), other(settings("other"));
     const auto services = serve_parameters(node);
     using namespace rcl_interfaces;
     EXPECT_THAT(called<ListParameters>(other, "/vehicle_node/list_parameters", {}).result.names,
@@ -305,8 +305,8 @@ TEST_F(Ros2Wire, ThePeerCallsAServiceInCyclonesWay) {
     NodeSettings way = settings("limpet");
     way.services = ServiceWay::cyclone;
     Node node(way);
-    std::atomic<int> asked = 0;
-    const auto service = serve_trigger(node, asked);
+    std::atomic<int> calls = 0;
+    const auto service = serve_trigger(node, calls);
     const dds_entity_t requests =
         peer_.writer("rq/limpet/perchRequest", std_srvs_srv_dds__Trigger_Request__desc, {});
     const dds_entity_t replies =
@@ -314,18 +314,18 @@ TEST_F(Ros2Wire, ThePeerCallsAServiceInCyclonesWay) {
     ASSERT_TRUE(soon([&] { return Peer::has_reader(requests) && Peer::has_writer(replies); }));
     const PeerRequest request{
         .client = 0x1122334455667788U, .number = 42, .structure_needs_at_least_one_member = 0};
-    bool heard = false;
+    bool received = false;
     EXPECT_TRUE(soon([&] {
         dds_write(requests, &request);  // again, where the reply came before its reader was known
         Peer::take<PeerResponse>(replies, [&](const PeerResponse& response) {
-            heard = true;
+            received = true;
             EXPECT_EQ(response.client, request.client);
             EXPECT_EQ(response.number, request.number);
             EXPECT_TRUE(response.success);
             EXPECT_THAT(response.message, testing::StartsWith("begins"));
         });
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        return heard;
+        return received;
     }));
 }
 

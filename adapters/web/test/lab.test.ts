@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lab's page: one flight, many, what a number hangs on.
+// The lab's page: one flight, many, what a number depends on.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -8,6 +8,7 @@ import { join } from "node:path";
 import { after, test } from "node:test";
 import { Changes, rounded, slide } from "../src/lab/changes";
 import type { Delay } from "../src/lab/reflights";
+import { program } from "./flight";
 import {
   browser,
   drag,
@@ -17,8 +18,7 @@ import {
   page,
   picture,
   press,
-  program,
-  said,
+  problems,
   shown,
   skip,
   tab,
@@ -89,7 +89,7 @@ test("the address alone brings it back", { skip }, async () => {
   await other.close();
 });
 
-test("the command it tells flies the same", { skip }, async () => {
+test("the command it copies flies the same", { skip }, async () => {
   const { command } = await lab();
   const words = command.split(" ").slice(1);
   const flown = spawnSync(program, [...words, "--no-record", "--json"], { encoding: "utf8" });
@@ -112,7 +112,7 @@ test("what is saved is a scenario", { skip }, async () => {
   assert.equal(spawnSync(program, ["check", file]).status, 0);
 });
 
-test("what cannot be is said, and the last flight stays", { skip }, async () => {
+test("what cannot be is reported, and the last flight stays", { skip }, async () => {
   await page.evaluate(() => {
     const number = document.querySelector<HTMLInputElement>(
       '[data-key="guidance.rest_s"] input[type=number]',
@@ -202,12 +202,12 @@ test("many fly; a point is a flight to look at", { skip }, async () => {
 test("a campaign that ships is stopped, and found again by another page", { skip }, async () => {
   await page.select("#lab .many select", "faults");
   await press("Fly them");
-  await page.waitForFunction(() => (window as unknown as Shown).lab.many.outside().runs === 2574);
+  await page.waitForFunction(() => (window as unknown as Shown).lab.many.outside().runs > 2000);
   await landed(3);
   await press("Stop");
   await page.waitForFunction(() => !(window as unknown as Shown).lab.many.outside().running);
-  const { rows } = await many();
-  assert.ok(rows.length < 2574, `${rows.length} rows`);
+  const { rows, runs } = await many();
+  assert.ok(rows.length < runs, `${rows.length} rows of ${runs}`);
   const other = await browser.newPage();
   try {
     await other.goto(page.url());
@@ -224,7 +224,7 @@ test("a campaign that ships is stopped, and found again by another page", { skip
   await tab("One");
 });
 
-test("what a number hangs on: each parameter turned alone", { skip }, async () => {
+test("what a number depends on: each parameter changed alone", { skip }, async () => {
   await choose("hover");
   await tab("Learn");
   await press("Turn them all");
@@ -275,7 +275,7 @@ const reflown = (key: string, values: number[]): Promise<Delay[]> =>
   );
 const along = (count: number, from: number, step: number): number[] =>
   Array.from({ length: count }, (_, k) => from + step * (k % 10));
-function tell(what: string, delays: Delay[]): void {
+function report(what: string, delays: Delay[]): void {
   const at = (part: keyof Delay, share: number): string => {
     const sorted = delays.map((delay) => delay[part]).sort((a, b) => a - b);
     return (sorted[Math.floor(sorted.length * share)] ?? Number.NaN).toFixed(0);
@@ -301,7 +301,7 @@ async function held(): Promise<Record<"heap" | "nodes" | "listeners" | "geometri
 test("how long a hand waits; 200 re-flights leave the memory flat", { skip }, async () => {
   await choose("perch_concrete");
   await reflown("guidance.dock_speed_m_s", [1, 1.1]);
-  tell(
+  report(
     "perch_concrete, 1400 x 860 (software renderer)",
     await reflown("guidance.dock_speed_m_s", along(9, 0.8, 0.05)),
   );
@@ -309,7 +309,7 @@ test("how long a hand waits; 200 re-flights leave the memory flat", { skip }, as
   await page.setViewport({ width: 640, height: 480 }); // this is not about the renderer
   await reflown("simulation.hover_s", along(20, 0.5, 0.05));
   const early = await held();
-  tell("hover, 640 x 480", await reflown("simulation.hover_s", along(200, 0.5, 0.05)));
+  report("hover, 640 x 480", await reflown("simulation.hover_s", along(200, 0.5, 0.05)));
   const late = await held();
   await page.setViewport({ width: 1400, height: 860 });
   console.log(
@@ -339,5 +339,5 @@ test("readable for everybody, also on a phone", { skip }, async () => {
     await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);
     await picture(`lab_${name.toLowerCase()}_phone.png`);
   }
-  assert.deepEqual(said, []);
+  assert.deepEqual(problems, []);
 });

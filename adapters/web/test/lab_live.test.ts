@@ -1,87 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 // A flight in progress, watched in the lab's page.
 import assert from "node:assert/strict";
-import { type ChildProcess, spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { spawn } from "node:child_process";
 import { join } from "node:path";
-import { after, test } from "node:test";
+import { test } from "node:test";
 import { parse } from "@foxglove/rosmsg";
 import { MessageWriter } from "@foxglove/rosmsg2-serialization";
 import { callOf, liveAddress } from "../src/recording/live";
 import { Builder } from "../src/recording/recording";
-import {
-  page,
-  picture,
-  press,
-  program,
-  said,
-  shown,
-  skip,
-  tab,
-  unreadable,
-  useLab,
-} from "./lab_page";
+import { Flight, program } from "./flight";
+import { page, picture, press, problems, shown, skip, tab, unreadable, useLab } from "./lab_page";
 
 interface LiveShown {
   watching: boolean;
   messages: number;
-  told: string;
-  said: string[];
+  status: string;
+  texts: string[];
   services: string[];
   parameters: Record<string, number>;
 }
 interface Shown {
   lab: { live: { outside(): LiveShown } };
 }
-const folder = mkdtempSync(join(tmpdir(), "limpet_lab_live_"));
-const layouts = process.env.LIMPET_LAYOUTS ?? ""; // a folder beside the shipped vehicles
-const flights: ChildProcess[] = [];
+const layouts = process.env.LIMPET_LAYOUTS ?? ""; // a folder next to the shipped vehicles
 useLab("perch_concrete", ["ws://127.0.0.1:"]);
-after(() => {
-  for (const flight of flights) {
-    flight.kill("SIGKILL");
-  }
-  rmSync(folder, { recursive: true, force: true });
-});
-
 const live = (): Promise<LiveShown> =>
   page.evaluate(() => (window as unknown as Shown).lab.live.outside());
 const until = (what: (live: LiveShown) => boolean): Promise<unknown> =>
   page.waitForFunction(
     `(${what.toString()})(window.lab.live.outside())`, // runs in the page
   );
-/** @returns the line with its address, and the result when it has ended */
-async function fly(
-  speed: number,
-  ...more: string[]
-): Promise<{ line: string; ended: Promise<{ outcome: string; reason: string; hash: string }> }> {
-  const flight = spawn(program, [
-    ...["fly", "perch_concrete", "--live", "0", "--live-wait", "--speed", `${speed}`, "--json"],
-    ...["--out", join(folder, `${flights.length}`), ...more],
-  ]);
-  flights.push(flight);
-  let result = "";
-  flight.stdout.on("data", (text) => {
-    result += text;
-  });
-  const ended = new Promise<number | null>((done) => flight.on("close", done)).then((code) => {
-    assert.equal(code, 0);
-    return JSON.parse(result);
-  });
-  const line = await new Promise<string>((found, failed) => {
-    let told = "";
-    flight.once("exit", () => failed(new Error(`it ended: ${told}`)));
-    flight.stderr.on("data", (text) => {
-      told += text;
-      const here = /^.*ws:\/\/.*$/m.exec(told);
-      if (here !== null) {
-        found(here[0]);
-      }
-    });
-  });
-  return { line, ended };
-}
 async function watch(line: string): Promise<void> {
   await page.$eval(
     "#lab .live input",
@@ -131,13 +79,13 @@ ${numbers("x y z w")}`;
   const writer = new MessageWriter(parse(schema, { ros2: true }));
   const builder = new Builder("live", new Map([["/estimate/pose", []]]));
   const channel = { id: 4, encoding: "cdr", schemaEncoding: "ros2msg", schema };
-  assert.equal(builder.channel({ ...channel, topic: "/nobody/asks" }), false);
+  assert.equal(builder.channel({ ...channel, topic: "/not/wanted" }), false);
   assert.equal(builder.channel({ ...channel, topic: "/estimate/pose" }), true);
   for (const x of [0, 1]) {
     const pose = { position: { x, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
     builder.message(4, x, writer.writeMessage({ pose }));
   }
-  const { frames, duration } = builder.tell();
+  const { frames, duration } = builder.built();
   assert.equal(duration, 1);
   assert.deepEqual(frames.get("base_link")?.at(0.5), [0.5, 2, 3, 0, 0, 0, 1]);
 });
@@ -148,8 +96,8 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
   const problem = await page.$eval("#problem", (e) => e.textContent);
   assert.match(problem ?? "", /as a flight of this machine prints it/);
 
-  const { line, ended } = await fly(0.5); // not on the wall before a slow page has paused it
-  await watch(line);
+  const flight = new Flight(0.5); // not on the wall before a slow page has paused it
+  await watch(await flight.line());
   await until(({ messages }) => messages > 500);
   assert.deepEqual((await live()).services, ["Pause", "Resume", "Take off", "Abort"]);
   const early = await shown();
@@ -157,15 +105,15 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
   assert.ok(early.following && early.vehicle.seen && early.charts >= 6, JSON.stringify(early));
 
   await press("Pause");
-  await until(({ said }) => said.includes("paused"));
+  await until(({ texts }) => texts.includes("paused"));
   await press("Pause");
-  await until(({ said }) => said.includes("is paused already"));
+  await until(({ texts }) => texts.includes("is paused already"));
   await press("Take off"); // guidance's own guard
-  await until(({ said }) => said.includes("does not rest on the wall"));
+  await until(({ texts }) => texts.includes("does not rest on the wall"));
   await new Promise((passed) => setTimeout(passed, 300));
   const held = await shown();
   assert.ok(held.time > early.time && held.time === held.end, JSON.stringify(held));
-  assert.match((await live()).told, /^perch_concrete · \d+\.\d s · \w+/);
+  assert.match((await live()).status, /^perch_concrete · \d+\.\d s · \w+/);
   await picture("lab_live.png");
   assert.deepEqual(await unreadable(), []);
 
@@ -187,16 +135,16 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
   const again = await shown();
   assert.ok(again.following && again.end > held.end);
   await press("Abort");
-  const result = await ended;
+  const result = await flight.end();
   assert.equal(result.outcome, "aborted");
   await until(({ watching }) => !watching);
   const last = await live();
-  assert.equal(last.told, "the flight is no longer there");
-  // Where the vehicle is by then is the truth's to say: it is not waited for.
+  assert.equal(last.status, "the flight is no longer there");
+  // Where the vehicle is by then shows in the truth: it is not waited for.
   const how = /^aborted(, in truth \w+)?: a viewer asked for it$/;
   assert.ok(
-    last.said.some((line: string) => how.test(line)),
-    JSON.stringify(last.said),
+    last.texts.some((line: string) => how.test(line)),
+    JSON.stringify(last.texts),
   );
 });
 
@@ -216,18 +164,18 @@ const type = (name: string, value: number): Promise<unknown> =>
   );
 
 test("its parameters are set, within what they may be", { skip }, async () => {
-  const { line, ended } = await fly(1);
-  await watch(line);
+  const flight = new Flight(1);
+  await watch(await flight.line());
   await until(({ parameters, messages }) => Object.keys(parameters).length > 20 && messages > 0);
   await press("Pause");
-  await until(({ said }) => said.includes("paused"));
+  await until(({ texts }) => texts.includes("paused"));
   const name = "autopilot.MC_PITCHRATE_P";
   const { parameters } = await live();
   assert.ok(Object.keys(parameters).every((key) => key.startsWith("autopilot.")));
   const before = parameters[name] as number;
   await type(name, 1.01 * before);
   await type(name, 1e9); // the flight's own guard; what holds stays
-  await until(({ said }) => said.some((text) => text.includes("is out of range, allowed")));
+  await until(({ texts }) => texts.some((text) => text.includes("is out of range, allowed")));
   await page.waitForFunction(
     (key, value) =>
       Math.abs(((window as unknown as Shown).lab.live.outside().parameters[key] ?? 0) - value) <
@@ -255,17 +203,17 @@ test("its parameters are set, within what they may be", { skip }, async () => {
     ),
   );
   await press("Abort");
-  assert.equal((await ended).outcome, "aborted");
+  assert.equal((await flight.end()).outcome, "aborted");
   await until(({ watching }) => !watching);
 });
 
 test("a vehicle from CAD has its meshes", { skip }, async () => {
-  const { line } = await fly(
+  const flight = new Flight(
     1,
     "--set",
     `vehicle=${join(layouts, "../vehicles/cad_uav/cad_uav.yaml")}`,
   );
-  await watch(line);
+  await watch(await flight.line());
   await until(({ messages }) => messages > 100);
   await page.waitForFunction(() => {
     const [flight] = (
@@ -291,9 +239,9 @@ test(
   "it is watched to its end, from the wall to the wall, and no other for it",
   { skip },
   async () => {
-    const { line, ended } = await fly(2);
-    await watch(line);
-    const { outcome, hash } = await ended;
+    const flight = new Flight(2);
+    await watch(await flight.line());
+    const { outcome, hash } = await flight.end();
     await until(({ watching }) => !watching);
     const { end } = await shown();
     const events = await page.$$eval("#events li", (all) =>
@@ -315,10 +263,10 @@ test(
     assert.equal(outcome, plain.outcome);
     assert.equal(hash, plain.hash);
     assert.ok(Math.abs(end - plain.performance.simulated_s) < 0.1, `${end}`);
-    await watch(line);
-    await until(({ told }) => told === "no flight answers there, or its token is another one");
+    await watch(await flight.line());
+    await until(({ status }) => status === "no flight answers there, or its token is another one");
     assert.deepEqual(
-      said.filter((one) => !/WebSocket connection to/.test(one)),
+      problems.filter((one) => !/WebSocket connection to/.test(one)),
       [],
     );
   },

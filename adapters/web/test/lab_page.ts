@@ -10,8 +10,8 @@ import { after, before } from "node:test";
 import type { Browser, Page } from "puppeteer-core";
 import type { Delay } from "../src/lab/reflights";
 import { hasChromium, openChromium } from "./chromium";
+import { program } from "./flight";
 
-export const program = process.env.LIMPET_PROGRAM ?? "";
 export const skip = program === "" ? "no LIMPET_PROGRAM" : !hasChromium ? "no Chromium" : false;
 
 export interface LabState {
@@ -38,10 +38,10 @@ let served: ChildProcess;
 let address = "";
 export let browser: Browser;
 export let page: Page;
-/** What the page complained of, and whom it asked that it should not. */
-export const said: string[] = [];
+/** Messages of the page, and requests that it should not make. */
+export const problems: string[] = [];
 
-/** What else it may ask, beside its own server: beginnings of addresses. */
+/** @param mayAsk  beginnings of addresses other than its server that it may request */
 export function useLab(scenario: string, mayAsk: string[] = []): void {
   before(async () => {
     if (skip === false) {
@@ -69,14 +69,14 @@ async function open(scenario: string, mayAsk: string[]): Promise<void> {
   page.setDefaultTimeout(120000);
   page.on("console", (message) => {
     if (!/GPU stall|swiftshader|WebGL|status of 400/i.test(message.text())) {
-      said.push(message.text());
+      problems.push(message.text());
     }
   });
-  page.on("pageerror", (problem) => said.push(String(problem)));
+  page.on("pageerror", (problem) => problems.push(String(problem)));
   page.on("request", (request) => {
     const may = [new URL(address).origin, "data:", "blob:", ...mayAsk];
     if (!may.some((beginning) => request.url().startsWith(beginning))) {
-      said.push(`asks for ${request.url()}`);
+      problems.push(`requests ${request.url()}`);
     }
   });
   await page.setViewport({ width: 1400, height: 860 });

@@ -10,7 +10,7 @@ import {
   page,
   picture,
   press,
-  said,
+  problems,
   shown,
   skip,
   tab,
@@ -138,5 +138,5 @@ test("a click on the map turns both numbers; another number, another map", { ski
   await drawn();
   const other = await swing();
   assert.ok((other.growth_1_s[11] as number) < (growth_1_s[11] as number));
-  assert.deepEqual(said, []);
+  assert.deepEqual(problems, []);
 });

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A flight that is watched while it flies (LIMPET_PROGRAM), by the client of the protocol's authors.
 import assert from "node:assert/strict";
-import { type ChildProcess, execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { execFileSync } from "node:child_process";
 import { join } from "node:path";
-import { after, test } from "node:test";
+import { test } from "node:test";
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import type {
@@ -19,58 +17,13 @@ import type {
 } from "@foxglove/ws-protocol";
 import protocol from "@foxglove/ws-protocol"; // CommonJS: no names of its own
 import { WebSocket } from "ws";
+import { Flight, program } from "./flight";
 
-const program = process.env.LIMPET_PROGRAM as string;
-const skip = program === undefined;
-const folder = mkdtempSync(join(tmpdir(), "limpet-live-"));
-after(() => rmSync(folder, { recursive: true, force: true }));
+const skip = program === "";
 
 type Message = { topic: string; time_ns: bigint; value: Record<string, unknown> };
 
-class Flight {
-  readonly process: ChildProcess;
-  private said = "";
-  private readonly ended: Promise<number | null>;
-
-  constructor(name: string, speed: number, ...more: string[]) {
-    const out = join(folder, name);
-    this.process = spawn(program, [
-      ...["fly", "perch_concrete", "--live", "0", "--live-wait", "--speed", `${speed}`],
-      ...["--json", "--out", out, ...more],
-    ]);
-    // With --json all but the result is on standard error.
-    this.process.stderr?.on("data", (text) => {
-      this.said += text;
-    });
-    this.process.stdout?.on("data", (text) => {
-      this.result += text;
-    });
-    this.ended = new Promise((done) => {
-      this.process.on("close", done);
-    });
-  }
-  private result = "";
-
-  async address(): Promise<string> {
-    for (;;) {
-      const found = /ws:\/\/\S+/.exec(this.said);
-      if (found) {
-        return found[0];
-      }
-      assert.equal(this.process.exitCode, null, this.said);
-      await new Promise((done) => setTimeout(done, 5));
-    }
-  }
-  async end(): Promise<{ outcome: string; reason: string; hash: string }> {
-    assert.equal(await this.ended, 0, this.said);
-    return JSON.parse(this.result);
-  }
-  get text(): string {
-    return this.said;
-  }
-}
-
-/** Somebody who watches: what was told, and what was heard of the channels subscribed to. */
+/** A viewer, with all that it received. */
 class Viewer {
   readonly socket: WebSocket;
   readonly client: FoxgloveClient;
@@ -90,7 +43,7 @@ class Viewer {
     this.socket = new WebSocket(address, [subprotocol]);
     // biome-ignore lint/suspicious/noExplicitAny: two libraries' types of the same thing
     this.client = new protocol.FoxgloveClient({ ws: this.socket as any });
-    const heard = (take: () => void) => {
+    const received = (take: () => void) => {
       take();
       for (const wake of this.wakes.splice(0)) {
         wake();
@@ -100,40 +53,40 @@ class Viewer {
       throw error;
     });
     this.client.on("close", () =>
-      heard(() => {
+      received(() => {
         this.closed = true;
       }),
     );
     this.client.on("serverInfo", (info) =>
-      heard(() => {
+      received(() => {
         this.info = info;
       }),
     );
     this.client.on("advertise", (channels) =>
-      heard(() => {
+      received(() => {
         for (const channel of channels) {
           this.channels.set(channel.topic, channel);
         }
       }),
     );
     this.client.on("advertiseServices", (services) =>
-      heard(() => {
+      received(() => {
         for (const service of services) {
           this.services.set(service.name, service);
         }
       }),
     );
-    this.client.on("status", (status) => heard(() => this.texts.push(status.message)));
-    this.client.on("parameterValues", (values) => heard(() => this.values.push(values)));
+    this.client.on("status", (status) => received(() => this.texts.push(status.message)));
+    this.client.on("parameterValues", (values) => received(() => this.values.push(values)));
     this.client.on("time", (time) =>
-      heard(() => {
+      received(() => {
         assert.ok(time.timestamp >= this.time_ns);
         this.time_ns = time.timestamp;
       }),
     );
-    this.client.on("message", (message) => heard(() => this.take(message)));
+    this.client.on("message", (message) => received(() => this.take(message)));
     this.client.on("serviceCallResponse", (response) =>
-      heard(() => {
+      received(() => {
         const reader = new MessageReader(parse("bool success\nstring message", { ros2: true }));
         const { success, message } = reader.readMessage<{ success: boolean; message: string }>(
           response.data,
@@ -173,7 +126,7 @@ class Viewer {
   of(topic: string): Message[] {
     return this.messages.filter((message) => message.topic === topic);
   }
-  async ask(service: string): Promise<{ success: boolean; text: string }> {
+  async call(service: string): Promise<{ success: boolean; text: string }> {
     const before = this.answers.length;
     const serviceId = this.services.get(service)?.id as number;
     const data = new Uint8Array([0, 1, 0, 0, 0]);
@@ -195,7 +148,7 @@ type Transforms = {
 };
 
 test("a flight is watched, and no other for it", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("watched", 4);
+  const flight = new Flight(4);
   const address = await flight.address();
   const viewer = new Viewer(address, "foxglove.sdk.v1");
   await viewer.until(() => viewer.channels.size >= 23);
@@ -208,7 +161,7 @@ test("a flight is watched, and no other for it", { skip, timeout: 60_000 }, asyn
   await late.until(() => late.channels.size === viewer.channels.size);
   await viewer.until(() => viewer.of("/truth/pose").length >= 100);
 
-  // Poses: decoded, in their order, within the room.
+  // Poses: decoded, in their order, within 10 m.
   let before_ns = -1n;
   for (const { time_ns, value } of viewer.of("/truth/pose")) {
     const { header, pose } = value as {
@@ -249,7 +202,7 @@ test("a flight is watched, and no other for it", { skip, timeout: 60_000 }, asyn
     assert.equal(top, "map", frame);
   }
 
-  // Who comes late gets what was said once.
+  // A late viewer gets the static messages.
   for (const topic of ["/robot_description", "/tf_static", "/scene"]) {
     late.subscribe(topic);
   }
@@ -259,7 +212,7 @@ test("a flight is watched, and no other for it", { skip, timeout: 60_000 }, asyn
   assert.match(markers[0]?.ns ?? "", /^wall\//);
   assert.ok(late.time_ns > 0n);
 
-  // One vanishes without a word, the other listens no more, and sees the end.
+  // One vanishes, the other unsubscribes, and sees the end.
   late.socket.terminate();
   viewer.unsubscribe();
   await viewer.until(() => viewer.texts.length > 0);
@@ -274,7 +227,7 @@ test("a flight is watched, and no other for it", { skip, timeout: 60_000 }, asyn
 });
 
 test("parameters and services", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("asked", 20);
+  const flight = new Flight(20);
   const viewer = new Viewer(await flight.address(), "foxglove.websocket.v1");
   await viewer.until(() => viewer.services.size === 4 && viewer.channels.size >= 23);
   assert.deepEqual(viewer.info?.capabilities, [
@@ -305,9 +258,9 @@ test("parameters and services", { skip, timeout: 60_000 }, async () => {
 
   // It waits for a viewer; now it flies, and comes to a stop.
   viewer.subscribe("/events");
-  assert.deepEqual(await viewer.ask("/pause"), { success: true, text: "paused" });
-  assert.equal((await viewer.ask("/pause")).success, false);
-  assert.equal((await viewer.ask("/take_off")).text, "does not rest on the wall");
+  assert.deepEqual(await viewer.call("/pause"), { success: true, text: "paused" });
+  assert.equal((await viewer.call("/pause")).success, false);
+  assert.equal((await viewer.call("/take_off")).text, "does not rest on the wall");
 
   const wanted = (all.get(rate) as number) * 1.01;
   await set(rate, wanted);
@@ -325,19 +278,19 @@ test("parameters and services", { skip, timeout: 60_000 }, async () => {
   await viewer.until(() => viewer.texts.length === 5);
 
   // What was set is an event of the flight.
-  assert.equal((await viewer.ask("/resume")).success, true);
+  assert.equal((await viewer.call("/resume")).success, true);
   const events = () => viewer.of("/events").map(({ value }) => value.name as string);
   await viewer.until(() => events().includes("parameter_set"));
-  assert.equal((await viewer.ask("/abort")).success, true);
+  assert.equal((await viewer.call("/abort")).success, true);
   const result = await flight.end();
   assert.equal(result.outcome, "aborted");
   assert.equal(result.reason, "a viewer asked for it");
 });
 
-// The layouts' folder is beside the vehicles'.
+// The layouts' folder is next to the vehicles'.
 const cad = join(process.env.LIMPET_LAYOUTS ?? "", "../vehicles/cad_uav/cad_uav.yaml");
 test("the meshes of a vehicle from CAD are fetched", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("meshes", 20, "--set", `vehicle=${cad}`);
+  const flight = new Flight(20, "--set", `vehicle=${cad}`);
   const viewer = new Viewer(await flight.address(), "foxglove.sdk.v1");
   await viewer.until(() => viewer.channels.size >= 23);
   viewer.subscribe("/robot_description");
@@ -362,11 +315,11 @@ test("the meshes of a vehicle from CAD are fetched", { skip, timeout: 60_000 }, 
   const missing = await fetched("package://cad_uav/../../secret.stl", 99);
   assert.ok(missing.status === 1 && /there is no/.test(missing.error));
   viewer.socket.close();
-  flight.process.kill("SIGKILL");
+  flight.kill();
 });
 
 test("a foreign page and a wrong token stay outside", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("closed", 20);
+  const flight = new Flight(20);
   const address = await flight.address();
   const knock = (where: string, origin?: string) =>
     new Promise<string>((done) => {
@@ -387,5 +340,5 @@ test("a foreign page and a wrong token stay outside", { skip, timeout: 60_000 },
     await knock(address.replace(/token=.*/, "token=0"), "http://127.0.0.1:40000"),
     /403/,
   );
-  flight.process.kill("SIGKILL");
+  flight.kill();
 });

@@ -29,7 +29,7 @@ interface Shown {
 
 let browser: Browser;
 let page: Page;
-const said: string[] = [];
+const problems: string[] = [];
 
 before(async () => {
   if (skip !== false) {
@@ -41,13 +41,13 @@ before(async () => {
   page.on("console", (message) => {
     // The software renderer talks about its own speed.
     if (!/GPU stall|swiftshader|WebGL/i.test(message.text())) {
-      said.push(message.text());
+      problems.push(message.text());
     }
   });
-  page.on("pageerror", (problem) => said.push(String(problem)));
+  page.on("pageerror", (problem) => problems.push(String(problem)));
   page.on("request", (request) => {
     if (!/^(file|data|blob):/.test(request.url())) {
-      said.push(`asks for ${request.url()}`);
+      problems.push(`requests ${request.url()}`);
     }
   });
   await page.setOfflineMode(true);
@@ -212,7 +212,7 @@ test(
   },
 );
 
-test("recordings dropped on it fly, rubbish is told in one line", { skip }, async () => {
+test("recordings dropped on it fly, rubbish is reported in one line", { skip }, async () => {
   const bytes = readFileSync(recording_file);
   await drop("rubbish.mcap", new TextEncoder().encode("no recording"));
   await page.waitForFunction(() => !(document.querySelector("#problem") as HTMLElement).hidden);
@@ -365,6 +365,6 @@ test("says how many pictures a second it makes, and stands in full detail", { sk
   assert.ok(time > 0 && made > 0);
 });
 
-test("it said nothing and asked nobody", { skip }, () => {
-  assert.deepEqual(said, []);
+test("it reported nothing and requested nothing", { skip }, () => {
+  assert.deepEqual(problems, []);
 });

@@ -203,13 +203,13 @@ test("as the format's own library reads it", { skip: flown === undefined }, () =
 });
 
 test(
-  "one damaged byte of a chunk costs that chunk and is told",
+  "one damaged byte of a chunk costs that chunk and is reported",
   { skip: flown === undefined },
   () => {
     const bytes = new Uint8Array(readFileSync(flown as string));
     const whole = readRecording("flight", bytes, kColumns);
     assert.equal(whole.damage, "");
-    const within = Math.floor(0.6 * bytes.length); // not in a chunk's index, which nobody reads
+    const within = Math.floor(0.6 * bytes.length); // not in a chunk's index, which is not read
     bytes[within] = (bytes[within] as number) ^ 0x10;
     const most = readRecording("flight", bytes, kColumns);
     assert.match(most.damage, /^1 damaged and left out, first: /);
@@ -291,6 +291,24 @@ const literals = (bytes: number[]): number[] => {
   return [0xf0, bytes.length - kMost, ...bytes];
 };
 
+test("Unix times count from the first message; times of a flight stay", () => {
+  const read = (from_s: number): number[] => {
+    const messages = [0, 0.25, 2].map((t) => message(from_s + t));
+    // each in a chunk: the first message is that of the recording
+    const chunks = messages.map((bytes) => chunk("", bytes.length, bytes));
+    const whole = timesOf(recordingOf(channel, ...messages));
+    assert.deepEqual(timesOf(recordingOf(channel, ...chunks)), whole);
+    const recording = readRecording("x", recordingOf(channel, ...messages), kOne);
+    assert.equal(recording.duration, whole.at(-1));
+    assert.equal(recording.damage, "");
+    return whole.map((time) => Number(time.toFixed(6)));
+  };
+  assert.deepEqual(read(1.79e9), [0, 0.25, 2]); // of the year 2026
+  assert.deepEqual(read(1e5), [0, 0.25, 2]); // the first that is a clock's
+  assert.deepEqual(read(99999), [99999, 99999.25, 100001]);
+  assert.deepEqual(read(5), [5, 5.25, 7]);
+});
+
 test("chunks of LZ4 are read, packed and not", () => {
   const records = [...channel, ...message(1)];
   assert.deepEqual(timesOf(recordingOf(chunk("lz4", records.length, frame(records)))), [1]);
@@ -302,7 +320,10 @@ test("chunks of LZ4 are read, packed and not", () => {
   const packed = [0x35, 97, 98, 99, 3, 0, 0x10, 122];
   const out = unpackLz4(new Uint8Array(frame(packed, true)), 0, 100);
   assert.equal(Buffer.from(out).toString(), "abcabcabcabcz");
-  assert.throws(() => unpackLz4(new Uint8Array(frame(packed, true)), 0, 12), /more than it says/);
+  assert.throws(
+    () => unpackLz4(new Uint8Array(frame(packed, true)), 0, 12),
+    /more than its declared size/,
+  );
   assert.throws(() => unpackLz4(new Uint8Array(frame([0x05, 1, 0], true)), 9, 9), /not there/);
   for (let length = 1; length < packed.length; ++length) {
     const cut = new Uint8Array(frame(packed, true)).subarray(0, 11 + length);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How a mission's numbers follow what is set: the slope of their mean, beside that of a single mission.
+"""How a mission's numbers follow what is set: the slope of their mean, and that of a single mission.
 
     ./run python docs/examples/python/gradients.py [--missions 600] [--seeds 5]
 

@@ -147,19 +147,19 @@ def main():
     parser.add_argument("--generations", type=int, default=16)
     parser.add_argument("--out", type=Path, default=Path("out/learn_to_dock"))
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    asked = parser.parse_args()
-    asked.out.mkdir(parents=True, exist_ok=True)
-    learnt, curve = learn(asked.generations, asked.jobs)
-    np.save(asked.out / "policy.npy", learnt)
-    fresh = gym.make_vec("limpet/Dock-v0", FINAL, jobs=asked.jobs)
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    learnt, curve = learn(options.generations, options.jobs)
+    np.save(options.out / "policy.npy", learnt)
+    fresh = gym.make_vec("limpet/Dock-v0", FINAL, jobs=options.jobs)
     seed = 1000003  # none that was learnt from
     shares = {"as it began": fly_all(fresh, first_policy(), seed)[1],
-              "guidance": guidance_on(gym.Dock(), seed, FINAL, asked.jobs),
+              "guidance": guidance_on(gym.Dock(), seed, FINAL, options.jobs),
               "learnt": fly_all(fresh, learnt, seed)[1]}
     for name, success in shares.items():
         print(f"{name:12s} attached on {share_text(success)} of {FINAL} fresh walls")
-    draw(asked.out, curve, shares, {"as it began": flight_of(first_policy(), 5), "learnt": flight_of(learnt, 5)})
-    print(f"written      {asked.out}/learn_to_dock.png, policy.npy")
+    draw(options.out, curve, shares, {"as it began": flight_of(first_policy(), 5), "learnt": flight_of(learnt, 5)})
+    print(f"written      {options.out}/learn_to_dock.png, policy.npy")
 
 
 if __name__ == "__main__":

@@ -5,9 +5,9 @@
     ./run python docs/examples/python/touch_and_go.py [--seeds 3]
 
 Supa et al., "Bumper Drone: Elastic Morphology Design for Aerial Physical Interaction" (arXiv 2602.18976), let a drone with
-horns lean against a wall under a plain attitude controller. They tell that elastic horns take 38 % of the pitch's
+horns lean against a wall under a plain attitude controller. They report that elastic horns take 38 % of the pitch's
 oscillation under rigid ones, and the lower arrangement of horns some 54 %. Their drone's sizes are not in the
-abstract, which is all that was at hand, so that this asks what the same does to the vehicle of this repository: its cup on the
+abstract, which is all that was at hand, so that this tests what the same does to the vehicle of this repository: its cup on the
 spring slider is the horn, the pump stays off. A guidance of our own leans by 2 to 4 deg for ten seconds from the first
 touch; the pitch's deviation then is its oscillation."""
 
@@ -88,7 +88,7 @@ def main():
               f" {often[0]:8d}..{often[1]:<4d}{rarely[0]:4d}..{rarely[1]}")
     upper, lower = rows[0], rows[-1]
     print(f"lower over upper: elastic {100 * (lower[1] / upper[1] - 1):+.0f} %, rigid {100 * (lower[2] / upper[2] - 1):+.0f} %")
-    print("told of another drone: elastic over rigid -38 %, lower over upper arrangement -54 %")
+    print("reported for another drone: elastic over rigid -38 %, lower over upper arrangement -54 %")
 
 
 if __name__ == "__main__":

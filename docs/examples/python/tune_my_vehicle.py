@@ -11,7 +11,7 @@ all fly a few missions, the better third of them three times as many, and so on;
 against the guidance as it ships on missions that none of them has flown. What is left to chance in
 a mission: the start's heading and offset, the wall's lean, and all that the surface draws."""
 
-# %% What is asked
+# %% Arguments
 import argparse
 import os
 import sys
@@ -38,7 +38,7 @@ TUNED = {"guidance.dock_speed_m_s": (0.5, 2.0),    # towards the wall
 FRESH_SEED = 7919  # none that was raced with
 
 
-def asked():
+def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--vehicle", type=Path, help="a vehicle's file; else perching_uav made heavier")
     parser.add_argument("--surface", default="porous_concrete")
@@ -144,7 +144,7 @@ def draw(file, log, compared, flights):
 
 # %%
 def main():
-    want = asked()
+    want = arguments()
     want.out.mkdir(parents=True, exist_ok=True)
     fixed = {"vehicle": str(want.vehicle.resolve())} if want.vehicle else dict(MINE)
     fixed.update({"wall.surface": want.surface, "guidance.attempts": want.attempts})

@@ -10,9 +10,9 @@ namespace limpet {
 
 /// How a flight ended.
 enum class Outcome {
-    perched,          ///< rests on the wall, motors off, as the mission asked
-    released,         ///< perched, took off and is back where it came from (or hovered as asked)
-    failed_to_seal,   ///< used up its attempts
+    perched,         ///< rests on the wall, motors off, as the mission requires
+    released,        ///< perched, took off and is back where it came from (or hovered as requested)
+    failed_to_seal,  ///< used up its attempts
     release_aborted,  ///< gave up the release and rests on the wall again
     aborted,          ///< gave the mission up in the air for another reason, which its reason says
     crashed,          ///< hit something with something else than the cup and the legs

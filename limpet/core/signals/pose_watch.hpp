@@ -93,7 +93,7 @@ private:
     std::optional<Vector3> off_W_m_;        ///< trusted pose less estimate, low-passed
     Vector3 jump_W_m_ = Vector3::Zero();
     std::optional<Vector3> stood_W_m_;  ///< where it was when something last moved it
-    double turned_s_ = -1e9;            ///< when the gyros last said that it moves
+    double turned_s_ = -1e9;            ///< when the gyros last showed that it moves
     double away_m_ = 0.0;
     DriftWatch drift_;
     int unfelt_poses_ = 0;  ///< one after the other

@@ -7,8 +7,8 @@
 
 namespace limpet {
 
-/// What a sensor said and when it measured it. A new sample has a new time stamp; one that never
-/// came has the time stamp -infinity.
+/// What a sensor reported and when it measured it. A new sample has a new time stamp; one that
+/// never came has the time stamp -infinity.
 template <class T>
 struct Sample {
     double time_s =

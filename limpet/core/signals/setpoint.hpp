@@ -13,7 +13,7 @@ struct PositionSetpoint {
     Vector3 feedforward_v_W_m_s = Vector3::Zero();
 };
 
-/// No position loop behind it: who asks for a velocity and wants to keep a line closes that loop.
+/// No position loop behind it: guidance that commands a velocity along a line closes that loop.
 struct VelocitySetpoint {
     Vector3 v_W_m_s = Vector3::Zero();
     double yaw_rad = 0.0;
@@ -28,7 +28,7 @@ struct AttitudeSetpoint {
 /// Motors armed and at their idle command, no control.
 struct IdleSetpoint {};
 
-/// What guidance asks of the autopilot and of the perching mechanism.
+/// What guidance commands the autopilot and the perching mechanism.
 struct Setpoint {
     std::variant<IdleSetpoint, PositionSetpoint, VelocitySetpoint, AttitudeSetpoint> motion =
         IdleSetpoint{};

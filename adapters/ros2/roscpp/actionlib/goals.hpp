@@ -17,7 +17,7 @@ namespace actionlib::detail {
 
 using GoalId = unique_identifier_msgs::UUID;
 
-/// What an action server knows of its goals, whatever their type: their states, told on
+/// What an action server knows of its goals, whatever their type: their states, published on
 /// ACTION/_action/status; who waits for which result; whom a cancel request means. As rcl_action
 /// has it. One thread calls.
 class Goals {
@@ -25,7 +25,7 @@ public:
     using Reply = limpet::ros2::Node::Reply;
 
     /// @param cancel   called for each accepted goal that is to stop
-    /// @param unknown  the answer to who asks for the result of a goal that is not known
+    /// @param unknown  the answer to a request for the result of an unknown goal
     Goals(const ros::NodeHandle& node, const std::string& action,
           std::function<void(const GoalId&)> cancel, limpet::ros2::Bytes unknown);
 
@@ -33,7 +33,7 @@ public:
     /// Accepted, and under way.
     /// @return when
     ros::Time accept(const GoalId& id);
-    /// @param result  the response to who asks for it
+    /// @param result  the response to requests for it
     void finish(const GoalId& id, std::int8_t status, limpet::ros2::Bytes result);
     /// Replies now, or when it has come to its end.
     void give_result(const GoalId& id, const Reply& reply);
@@ -42,13 +42,13 @@ private:
     static constexpr std::size_t kKept = 32;  ///< that are over; rcl keeps them for 10 s
     using Key = decltype(GoalId::uuid);
     struct Goal {
-        action_msgs::GoalStatus told;
+        action_msgs::GoalStatus entry;
         limpet::ros2::Bytes result;  ///< once it is over
         std::vector<Reply> waiting;
     };
 
     bool cancel(action_msgs::CancelGoalRequest& request, action_msgs::CancelGoalResponse& response);
-    void tell() const;
+    void publish() const;
 
     std::function<void(const GoalId&)> cancel_;
     limpet::ros2::Bytes unknown_;

@@ -18,7 +18,7 @@ public:
         calls_.push_back(std::move(call));
         more_.notify_one();
     }
-    /// Somebody is to look whether anything else is due.
+    /// Wakes the caller, who looks whether a timer is due.
     void poke() {
         const std::lock_guard lock(mutex_);
         poked_ = true;
@@ -45,7 +45,7 @@ private:
     bool poked_ = false;
 };
 
-/// Makes a queue's calls in a thread of its own. One thread, whatever is asked for.
+/// Makes a queue's calls in a separate thread; always one.
 class AsyncSpinner {
 public:
     AsyncSpinner(unsigned /*threads*/, CallbackQueue* queue) : queue_(queue) {}

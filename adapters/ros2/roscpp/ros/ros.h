@@ -2,10 +2,10 @@
 #pragma once
 
 // The part of roscpp's interface that Limpet's nodes use (adapters/ros/src), on ROS 2's wire
-// (adapters/ros2/dds/node.hpp): they are written once and compiled for both. What differs between the two:
-// names of interfaces are ROS 1's, bytes and names on the wire ROS 2's; a parameter of another node
-// is a topic of that name that stays (std_msgs/String); a connection's manners follow from its
-// type, profile_of().
+// (adapters/ros2/dds/node.hpp): they are written once and compiled for both. What differs between
+// the two: names of interfaces are ROS 1's, bytes and names on the wire ROS 2's; a parameter of
+// another node is a topic of that name that stays (std_msgs/String); a connection's manners follow
+// from its type, profile_of().
 
 #include <ros/callback_queue.h>
 #include <ros/time.h>
@@ -98,13 +98,13 @@ namespace this_node {
 
 namespace param {
 /// @return whether there is such a one: of this node all its own (this_node::getName()), of others
-/// what they told
+/// their values
 [[nodiscard]] bool get(const std::string& name, XmlRpc::XmlRpcValue& value);
 void set(const std::string& name, const XmlRpc::XmlRpcValue& value);
 }  // namespace param
 
 namespace service {
-/// Whether somebody serves it whom a client of this node has found.
+/// Whether a client of this node has found a server of it.
 [[nodiscard]] bool exists(const std::string& name, bool print_failure_reason);
 }  // namespace service
 
@@ -129,8 +129,8 @@ namespace detail {
 [[nodiscard]] std::shared_ptr<limpet::ros2::Client> client(const std::string& service,
                                                            const std::string& request_type,
                                                            const std::string& response_type);
-/// Says once for a topic that what came there is not what its type says.
-void tell_unsound(const std::string& topic, const std::string& type);
+/// Logs once for a topic that a message there does not fit its type.
+void report_unsound(const std::string& topic, const std::string& type);
 
 /// Numbered as rcl_interfaces/Log has them.
 enum class Level : std::uint8_t {
@@ -145,7 +145,7 @@ struct Place {
 };
 /// A line of the node's log, formatted as by printf: to standard output, from a warning on to
 /// standard error, and to /rosout.
-[[gnu::format(printf, 3, 4)]] void say(Level level, const Place& place, const char* format, ...);
+[[gnu::format(printf, 3, 4)]] void print(Level level, const Place& place, const char* format, ...);
 
 struct TimerState {
     double period_s = 0.0;
@@ -228,7 +228,7 @@ public:
             [=, calls = this->queue()](const limpet::ros2::Bytes& bytes) {
                 const auto message = limpet::ros2::decode<Message>(bytes);
                 if (!message) {
-                    detail::tell_unsound(name, Message::kType);
+                    detail::report_unsound(name, Message::kType);
                 } else if (*waiting < queue) {
                     ++*waiting;
                     calls->add([call, waiting, kept = *message] {
@@ -262,11 +262,11 @@ public:
                                                           const limpet::ros2::Node::Reply& reply) {
                                          const auto request = limpet::ros2::decode<Request>(bytes);
                                          if (!request) {
-                                             detail::tell_unsound(name, Request::kType);
+                                             detail::report_unsound(name, Request::kType);
                                              return;
                                          }
-                                         calls->add([call, reply, asked = *request]() mutable {
-                                             call(asked, reply);
+                                         calls->add([call, reply, kept = *request]() mutable {
+                                             call(kept, reply);
                                          });
                                      })};
     }
@@ -310,23 +310,24 @@ private:
 }  // namespace ros
 
 // As roscpp's, for its users' sake; to standard output and error, and to /rosout.
-#define ROS_SAY(level, ...) ::ros::detail::say(level, {__FILE__, __func__, __LINE__}, __VA_ARGS__)
-#define ROS_INFO(...) ROS_SAY(::ros::detail::Level::info, __VA_ARGS__)
-#define ROS_INFO_ONCE(...)                                      \
-    do {                                                        \
-        static const bool said = (ROS_INFO(__VA_ARGS__), true); \
-        static_cast<void>(said);                                \
+#define ROS_PRINT(level, ...) \
+    ::ros::detail::print(level, {__FILE__, __func__, __LINE__}, __VA_ARGS__)
+#define ROS_INFO(...) ROS_PRINT(::ros::detail::Level::info, __VA_ARGS__)
+#define ROS_INFO_ONCE(...)                                         \
+    do {                                                           \
+        static const bool printed = (ROS_INFO(__VA_ARGS__), true); \
+        static_cast<void>(printed);                                \
     } while (false)
-#define ROS_WARN(...) ROS_SAY(::ros::detail::Level::warn, __VA_ARGS__)
-#define ROS_ERROR(...) ROS_SAY(::ros::detail::Level::error, __VA_ARGS__)
+#define ROS_WARN(...) ROS_PRINT(::ros::detail::Level::warn, __VA_ARGS__)
+#define ROS_ERROR(...) ROS_PRINT(::ros::detail::Level::error, __VA_ARGS__)
 #define ROS_WARN_THROTTLE(period_s, ...)                                                       \
     do {                                                                                       \
-        static double said_s = -1e9;                                                           \
+        static double last_s = -1e9;                                                           \
         const double wall_s =                                                                  \
             std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()) \
                 .count();                                                                      \
-        if (wall_s - said_s > (period_s)) {                                                    \
-            said_s = wall_s;                                                                   \
+        if (wall_s - last_s > (period_s)) {                                                    \
+            last_s = wall_s;                                                                   \
             ROS_WARN(__VA_ARGS__);                                                             \
         }                                                                                      \
     } while (false)

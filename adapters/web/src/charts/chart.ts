@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One panel of numbers over time.
 import uPlot from "uplot";
+import { button, download, element } from "../lab/element";
 import type { Recording } from "../recording/recording";
 import { valueAt } from "../recording/series";
 import { type Line, type Panel, type Samples, samplesOf } from "./panels";
@@ -27,10 +28,10 @@ interface Drawn extends Samples {
 }
 
 export class Chart {
-  readonly element = document.createElement("section");
+  readonly element: HTMLElement;
   private plot: uPlot | undefined;
-  private readonly readout = document.createElement("p");
-  private readonly mark = document.createElement("i");
+  private readonly readout = element("p", { className: "readout" });
+  private readonly mark = element("i", { className: "now" });
   private drawn: Drawn[] = [];
   private lines = ""; // that the plot has, and their look
   private range: Range = { min: 0, max: 1 };
@@ -42,21 +43,15 @@ export class Chart {
     readonly panel: Panel,
     private readonly host: ChartHost,
   ) {
-    this.element.className = "chart";
-    const title = document.createElement("h2");
-    title.textContent = `${panel.title} [${panel.unit}]`;
-    const save = document.createElement("button");
-    save.type = "button";
+    const save = button("PNG", `Save "${panel.title}" as a picture`, () => this.save());
     save.className = "save";
-    save.textContent = "PNG";
-    save.title = `Save "${panel.title}" as a picture`;
-    save.setAttribute("aria-label", save.title);
-    save.addEventListener("click", () => this.save());
-    const head = document.createElement("header");
-    this.readout.className = "readout";
-    head.append(title, this.readout, save);
-    this.mark.className = "now";
-    this.element.append(head);
+    save.ariaLabel = save.title;
+    const title = element("h2", {}, `${panel.title} [${panel.unit}]`);
+    this.element = element(
+      "section",
+      { className: "chart" },
+      element("header", {}, title, this.readout, save),
+    );
     new IntersectionObserver(([entry]) => {
       this.seen = entry?.isIntersecting ?? true;
       if (this.seen && this.stale) {
@@ -77,7 +72,7 @@ export class Chart {
         return samples === undefined ? [] : [{ line, ghost: k > 0, ...samples }];
       }),
     );
-    // A pendulum's thrust, say: there is nothing to see.
+    // Nothing to draw, for example a pendulum's thrust.
     this.element.hidden = this.drawn.every(({ values }) => values.every((value) => value === 0));
     const lines = JSON.stringify([
       look.colours,
@@ -111,7 +106,7 @@ export class Chart {
       font: "11px system-ui, sans-serif",
     };
     const options: uPlot.Options = {
-      mode: 2, // each line has times of its own
+      mode: 2, // each line has its times
       width,
       height: kHeight_px,
       legend: { show: false },
@@ -231,9 +226,7 @@ export function savePicture(
   name: string,
   draw: (context: CanvasRenderingContext2D) => void,
 ): void {
-  const copy = document.createElement("canvas");
-  copy.width = width;
-  copy.height = height;
+  const copy = element("canvas", { width, height });
   const context = copy.getContext("2d");
   if (context === null) {
     return;
@@ -241,8 +234,5 @@ export function savePicture(
   context.fillStyle = getComputedStyle(document.body).backgroundColor;
   context.fillRect(0, 0, width, height);
   draw(context);
-  const link = document.createElement("a");
-  link.download = name;
-  link.href = copy.toDataURL("image/png");
-  link.click();
+  download(name, copy.toDataURL("image/png"));
 }

@@ -9,7 +9,7 @@ export interface Line {
   column: string;
   /** A topic whose column of the same name is taken off, at each of its times. */
   minus?: string;
-  scale?: number;
+  scale: number;
   colour: string;
   width?: number; // [px]
 }
@@ -19,92 +19,81 @@ export interface Panel {
   lines: Line[];
 }
 
-const deg = 180 / Math.PI;
-const blue = "#2f7ed8";
-const orange = "#e07b39";
-const green = "#3a9d5d";
-const grey = "#8a939c";
+const kDegrees = 180 / Math.PI;
+const blue = { colour: "#2f7ed8" };
+const orange = { colour: "#e07b39" };
+const green = { colour: "#3a9d5d" };
+const grey = { colour: "#8a939c" };
 /** Where two lines coincide nearly everywhere, both are seen. */
-const under = { colour: blue, width: 4 };
-const over = { colour: orange, width: 1 };
+const under = { ...blue, width: 4 };
+const over = { ...orange, width: 1 };
+
+const line = (
+  label: string,
+  topic: string,
+  column: string,
+  look: Pick<Line, "colour" | "width">,
+  scale = 1,
+): Line => ({ label, topic, column, scale, ...look });
+const kTruth = "/truth/vehicle";
 
 export const kPanels: Panel[] = [
   {
     title: "Attitude",
     unit: "deg",
     lines: [
-      { label: "pitch", topic: "/truth/vehicle", column: "pitch_rad", scale: deg, colour: blue },
-      { label: "roll", topic: "/truth/vehicle", column: "roll_rad", scale: deg, colour: orange },
-      {
-        label: "cup on its joint",
-        topic: "/truth/vehicle",
-        column: "cup_pitch_rad",
-        scale: deg,
-        colour: grey,
-      },
+      line("pitch", kTruth, "pitch_rad", blue, kDegrees),
+      line("roll", kTruth, "roll_rad", orange, kDegrees),
+      line("cup on its joint", kTruth, "cup_pitch_rad", grey, kDegrees),
     ],
   },
   {
     title: "Pressure in the cup",
     unit: "hPa",
     lines: [
-      { label: "true", topic: "/cup", column: "pressure_pa", scale: 0.01, ...under },
-      {
-        label: "measured",
-        topic: "/sensors/cup_pressure",
-        column: "fluid_pressure",
-        scale: 0.01,
-        ...over,
-      },
+      line("true", "/cup", "pressure_pa", under, 0.01),
+      line("measured", "/sensors/cup_pressure", "fluid_pressure", over, 0.01),
     ],
   },
   {
     title: "Force through the slider",
     unit: "N",
     lines: [
-      { label: "true", topic: "/truth/vehicle", column: "slider_force_n", ...under },
-      { label: "measured", topic: "/sensors/force", column: "wrench.force.x", ...over },
+      line("true", kTruth, "slider_force_n", under),
+      line("measured", "/sensors/force", "wrench.force.x", over),
     ],
   },
   {
     title: "Load on the lip",
     unit: "N",
-    lines: [
-      { label: "pull", topic: "/cup", column: "pull_n", colour: blue },
-      { label: "shear", topic: "/cup", column: "shear_n", colour: orange },
-    ],
+    lines: [line("pull", "/cup", "pull_n", blue), line("shear", "/cup", "shear_n", orange)],
   },
   {
     title: "LiDARs",
     unit: "m",
     lines: [
-      { label: "left", topic: "/sensors/range_left", column: "range", colour: blue },
-      { label: "right", topic: "/sensors/range_right", column: "range", colour: orange },
+      line("left", "/sensors/range_left", "range", blue),
+      line("right", "/sensors/range_right", "range", orange),
     ],
   },
   {
     title: "Height",
     unit: "m",
-    lines: [{ label: "true", topic: "/truth/pose", column: "pose.position.z", colour: blue }],
+    lines: [line("true", "/truth/pose", "pose.position.z", blue)],
   },
   {
     title: "Error of the estimate",
     unit: "mm",
-    lines: (["x", "y", "z"] as const).map((axis, k) => ({
-      label: ["away from the wall", "along the wall", "up"][k] as string,
-      topic: "/estimate/pose",
-      column: `pose.position.${axis}`,
-      minus: "/truth/pose",
-      scale: 1000,
-      colour: [blue, orange, green][k] as string,
-    })),
+    lines: [
+      line("away from the wall", "/estimate/pose", "pose.position.x", blue, 1000),
+      line("along the wall", "/estimate/pose", "pose.position.y", orange, 1000),
+      line("up", "/estimate/pose", "pose.position.z", green, 1000),
+    ].map((one) => ({ ...one, minus: "/truth/pose" })),
   },
   {
     title: "Thrust",
     unit: "N",
-    lines: [
-      { label: "sum of the rotors", topic: "/truth/vehicle", column: "thrust_n", colour: green },
-    ],
+    lines: [line("sum of the rotors", kTruth, "thrust_n", green)],
   },
 ];
 
@@ -127,7 +116,7 @@ export function samplesOf(recording: Recording, line: Line): Samples | undefined
   if (line.minus !== undefined && (other === undefined || taken === undefined)) {
     return undefined;
   }
-  const scale = line.scale ?? 1;
+  const { scale } = line;
   const of = known.get(column) ?? new Map<string, Samples>();
   const key = `${scale} ${line.minus}`;
   const before = of.get(key);
@@ -143,7 +132,7 @@ export function samplesOf(recording: Recording, line: Line): Samples | undefined
   return samples;
 }
 
-/** What charts and scene ask of a recording, by topic. */
+/** The columns that charts and scene need, by topic. */
 export const kColumns: Wanted = (() => {
   const all = new Map<string, string[]>([
     ["/guidance", ["attempt"]],

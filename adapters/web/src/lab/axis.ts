@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A number of the scenario to go along, from where to where, in how many values.
 import { rounded, slide } from "./changes";
-import { element, labelled } from "./element";
+import { element, field, labelled } from "./element";
 import type * as server from "./server";
 
 /** Numbers that take one value together. */
@@ -21,14 +21,9 @@ export interface AxisWishes {
 export class AxisChoice {
   readonly element = element("fieldset", { className: "axis" });
   private readonly key = element("select", {});
-  private readonly from = element("input", { type: "number", step: "any", ariaLabel: "from" });
-  private readonly to = element("input", { type: "number", step: "any", ariaLabel: "to" });
-  private readonly count = element("input", {
-    type: "number",
-    min: "2",
-    max: "100",
-    ariaLabel: "values",
-  });
+  private readonly from = field("number", { ariaLabel: "from" });
+  private readonly to = field("number", { ariaLabel: "to" });
+  private readonly count = field("number", { min: 2, max: 100, step: "1", ariaLabel: "values" });
   private rows = new Map<string, server.Row>(); // by what stands for it in the list
   private filled: { key: string; value: number | undefined } | undefined;
 

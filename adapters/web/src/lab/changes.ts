@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What differs from the scenario as it ships: kept in the page's address, told as a command.
+// What differs from the scenario as it ships: kept in the page's address, written as a command.
 
 export class Changes {
   scenario = "";
@@ -73,7 +73,7 @@ export function slide(value: number, minimum: number, maximum: number): [number,
     : [Math.max(minimum, value * 4), Math.min(maximum, value / 4)];
 }
 
-/** As few digits as say it to a thousandth of the slider's way. */
+/** Rounded to a thousandth of the slider's range, in as few digits as possible. */
 export function rounded(value: number, from: number, to: number): number {
   const digits = Math.max(0, Math.min(12, 3 - Math.floor(Math.log10(to - from || 1))));
   return Number(value.toFixed(digits));

@@ -17,6 +17,53 @@ export function button(text: string, title: string, does: () => void): HTMLButto
   return made;
 }
 
+/** A list to choose from. */
+export function choice(
+  names: { name: string; description: string }[],
+  chosen: string,
+  chose: (name: string) => void,
+): HTMLSelectElement {
+  const list = element(
+    "select",
+    {},
+    ...names.map(({ name, description }) =>
+      element("option", { value: name, title: description }, name || description),
+    ),
+  );
+  list.value = chosen;
+  list.addEventListener("change", () => chose(list.value));
+  return list;
+}
+
+/** What an input takes, and what it holds. */
+interface Field {
+  min?: number;
+  max?: number;
+  step?: "any" | "1";
+  value?: number | string;
+  ariaLabel?: string;
+}
+export const field = (type: "number" | "range", takes: Field = {}): HTMLInputElement =>
+  element("input", Object.assign({ type, step: "any" }, takes) as Partial<HTMLInputElement>);
+
+export const options = (names: string[]): HTMLOptionElement[] =>
+  names.map((name) => element("option", { value: name }, name));
+
+/** A row of buttons. */
+export const tools = (...inside: (Node | string)[]): HTMLElement =>
+  element("div", { className: "tools" }, ...inside);
+
+/** What a part of the page is for. */
+export const about = (text: string): HTMLElement => element("p", { className: "what" }, text);
+
+/** Saves a file under this name. */
+export function download(name: string, address: string): void {
+  element("a", { download: name, href: address }).click();
+}
+
+export const messageOf = (problem: unknown): string =>
+  problem instanceof Error ? problem.message : String(problem);
+
 /** A control with its name before it. */
 export function labelled(name: string, ...controls: (Node | string)[]): HTMLLabelElement {
   return element("label", {}, element("span", {}, name), ...controls);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast the swing on the cup grows, over two numbers, and where the vehicle is in it.
-import { drawAxes, drawingOn, type Frame, Scale } from "./map";
+import { drawAxes, drawingOn, type Frame, mapCanvas, Scale } from "./map";
 import type { SwingAxis, SwingState } from "./server";
 
-/** Beyond it colours say no more [1/s]; as on the paper's map. */
+/** Beyond it colours are the same [1/s]; as on the paper's map. */
 const kMost_1_s = 0.6;
 
 /** Where a value lies between the values of its axis, which stand in columns. */
@@ -37,15 +37,13 @@ function colourOf(growth: number): string {
 }
 
 export class GrowthMap {
-  readonly canvas = document.createElement("canvas");
+  readonly canvas = mapCanvas(() => this.draw());
   private state: SwingState | undefined;
   private names: [string, string] = ["", ""];
   private frame: Frame | undefined;
 
   /** @param choose  a click: values of both axes */
   constructor(choose: (across: number, up: number) => void) {
-    this.canvas.className = "map";
-    this.canvas.role = "img";
     this.canvas.addEventListener("click", ({ offsetX, offsetY }) => {
       const { state, frame } = this;
       if (state !== undefined && frame !== undefined) {
@@ -54,8 +52,6 @@ export class GrowthMap {
         choose(valueAlong(state.across, u), valueAlong(state.up, v));
       }
     });
-    new ResizeObserver(() => this.draw()).observe(this.canvas);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
   show(state: SwingState, names: [string, string]): void {
     this.state = state;
@@ -168,7 +164,7 @@ export class GrowthMap {
     const of = (axis: SwingAxis): number[] => axis.own.map((value) => shareAlong(axis, value));
     return [of(state.across), of(state.up)];
   }
-  /** Of the vehicle's point, from the canvas' left and top [px], for who looks from outside. */
+  /** Of the vehicle's point, from the canvas' left and top [px], for tests and scripts. */
   own(): [number, number] | undefined {
     if (this.state === undefined || this.frame === undefined) {
       return undefined;

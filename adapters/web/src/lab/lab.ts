@@ -2,7 +2,17 @@
 // Every parameter of a scenario as a slider; the flight follows.
 import type { Recording } from "../recording/recording";
 import { Changes, rounded, slide } from "./changes";
-import { button, element, labelled, tabs } from "./element";
+import {
+  button,
+  choice,
+  download,
+  element,
+  field,
+  labelled,
+  messageOf,
+  tabs,
+  tools,
+} from "./element";
 import { Learn } from "./learn";
 import { Live } from "./live";
 import { Many } from "./many";
@@ -17,16 +27,17 @@ export interface LabHost {
   calm(): void;
   /** What is to be shown stands there, by all that draws. */
   drawn(): Promise<void>;
-  /** A flight that is still flying, at its latest time until somebody seeks another. */
+  /** A flight that is still flying, at its latest time until another is sought. */
   follow(recording: Recording): void;
   /** It has more to show; nothing happens where another one is looked at. */
   grown(recording: Recording): void;
-  say(text: string): void;
+  /** Shows a problem; empty: there is none. */
+  report(text: string): void;
 }
 
 const kCalm_ms = 150; // a hand that stands still
 
-/** Sections that people turn first; the others follow. */
+/** Sections that users change most; the others follow. */
 const kFirst = ["guidance", "environment", "vehicle.cup", "vehicle.slider", "wall.surface"];
 
 export class Lab {
@@ -42,8 +53,8 @@ export class Lab {
   });
   private catalogue: server.Catalogue | undefined;
   private readonly reflights: Reflights;
-  private telling: ReturnType<typeof setTimeout> | undefined;
-  private building = 0; // asked for and not there yet
+  private reporting: ReturnType<typeof setTimeout> | undefined;
+  private building = 0; // requested and not there yet
   readonly many: Many;
   readonly learn: Learn;
   readonly swing: Swing;
@@ -60,16 +71,14 @@ export class Lab {
       watch: (recording, brief) => this.watch(recording, brief),
       drawn: () => this.host.drawn(),
       reflown: (recording, delay_ms) => this.reflown(recording, delay_ms),
-      over: (brief) => this.tell(brief ? kCalm_ms : 0),
+      over: (brief) => this.reportLater(brief ? kCalm_ms : 0),
     });
-    const tools = element(
-      "div",
-      { className: "tools" },
+    const row = tools(
       button("As it ships", "Forget all changes", () => this.reset()),
       button("Save YAML", "The scenario with its changes, as a file", () => void this.save()),
       button("Copy command", "The command line that flies this", () => void this.copy()),
     );
-    const one = element("div", {}, this.diff, tools, this.search, this.sections);
+    const one = element("div", {}, this.diff, row, this.search, this.sections);
     this.many = new Many(this);
     this.learn = new Learn(this);
     this.swing = new Swing(this);
@@ -79,7 +88,7 @@ export class Lab {
       grown: (recording) => this.host.grown(recording),
     });
     this.learn.element.append(this.swing.element);
-    const row = tabs("What to do", [
+    const heads = tabs("What to do", [
       { name: "One", panel: one },
       { name: "Many", panel: this.many.element, shown: () => this.many.shown() },
       {
@@ -91,7 +100,7 @@ export class Lab {
       { name: "Live", panel: this.live.element },
     ]);
     const panels = [one, this.many.element, this.learn.element, this.live.element];
-    place.append(this.choices, this.status, row, ...panels);
+    place.append(this.choices, this.status, heads, ...panels);
     void this.begin();
   }
 
@@ -114,9 +123,9 @@ export class Lab {
   async trying(does: () => Promise<void>): Promise<void> {
     try {
       await does();
-      this.host.say("");
+      this.host.report("");
     } catch (problem) {
-      this.host.say(problem instanceof Error ? problem.message : String(problem));
+      this.host.report(messageOf(problem));
     }
   }
 
@@ -144,65 +153,42 @@ export class Lab {
         .map((section) => this.sectionOf(section)),
     );
     this.filter();
-    this.told();
+    this.showChanges();
   }
   private buildChoices(schema: server.Schema): void {
     const { catalogue } = this;
     if (catalogue === undefined) {
       return;
     }
-    const select = (
-      label: string,
-      names: server.Named[],
-      chosen: string,
-      chose: (name: string) => void,
-    ): HTMLElement => {
-      const list = element(
-        "select",
-        {},
-        ...names.map(({ name, description }) =>
-          element("option", { value: name, title: description }, name || description),
-        ),
-      );
-      list.value = chosen;
-      list.addEventListener("change", () => chose(list.value));
-      return labelled(label, list);
-    };
-    const rebuild = (): void => void this.trying(() => this.build().then(() => this.refly(false)));
+    /** @param name  empty: as in the scenario */
     const choose = (key: string) => (name: string) => {
-      this.changes.set(key, name);
-      rebuild();
+      if (name === "") {
+        this.changes.drop(key);
+      } else {
+        this.changes.set(key, name);
+      }
+      this.rebuild();
     };
-    const vehicle = this.changes.get("vehicle");
-    const unchanged = [{ name: "", description: "that of the scenario" }];
-    const seed = element("input", {
-      type: "number",
-      min: "0",
-      step: "1",
-      value: this.changes.get("seed") ?? String(schema.seed),
-    });
+    const begin = (name: string): void => {
+      this.changes.clear();
+      this.changes.scenario = name;
+      this.reflights.stands = undefined;
+      this.rebuild();
+    };
+    const value = this.changes.get("seed") ?? schema.seed;
+    const seed = field("number", { min: 0, step: "1", value });
     seed.addEventListener("change", () => {
       this.changes.set("seed", String(Math.max(0, Math.round(Number(seed.value)))));
       this.refly(false);
     });
+    const { scenarios, surfaces } = catalogue;
+    const vehicles = [{ name: "", description: "that of the scenario" }, ...catalogue.vehicles];
+    const vehicle = this.changes.get("vehicle") ?? "";
+    const surface = choice(surfaces, schema.surface, choose("wall.surface"));
     this.choices.replaceChildren(
-      select("Scenario", catalogue.scenarios, this.changes.scenario, (name) => {
-        this.changes.clear();
-        this.changes.scenario = name;
-        this.reflights.stands = undefined;
-        rebuild();
-      }),
-      ...(schema.surface === ""
-        ? []
-        : [select("Surface", catalogue.surfaces, schema.surface, choose("wall.surface"))]),
-      select("Vehicle", [...unchanged, ...catalogue.vehicles], vehicle ?? "", (name) => {
-        if (name === "") {
-          this.changes.drop("vehicle");
-          rebuild();
-        } else {
-          choose("vehicle")(name);
-        }
-      }),
+      labelled("Scenario", choice(scenarios, this.changes.scenario, begin)),
+      ...(schema.surface === "" ? [] : [labelled("Surface", surface)]),
+      labelled("Vehicle", choice(vehicles, vehicle, choose("vehicle"))),
       labelled("Seed", seed),
     );
   }
@@ -217,21 +203,13 @@ export class Lab {
       ...section.rows.map((row) => this.rowOf(row)),
     );
   }
-  private choiceOf(choice: server.Choice): HTMLElement {
-    const list = element(
-      "select",
-      {},
-      ...choice.names.map(({ name, description }) =>
-        element("option", { value: name, title: description }, name),
-      ),
-    );
-    list.value = this.changes.get(choice.key) ?? choice.chosen;
-    list.addEventListener("change", () =>
-      this.change(choice.key, list.value, choice.chosen, false),
+  private choiceOf({ key, names, chosen }: server.Choice): HTMLElement {
+    const list = choice(names, this.changes.get(key) ?? chosen, (name) =>
+      this.change(key, name, chosen, false),
     );
     const made = element("div", { className: "row" });
-    made.dataset.key = choice.key;
-    made.append(labelled(choice.key.split(".").pop() ?? "", list));
+    made.dataset.key = key;
+    made.append(labelled(key.split(".").pop() ?? "", list));
     return made;
   }
   private rowOf(row: server.Row): HTMLElement {
@@ -251,21 +229,9 @@ export class Lab {
       const value = now === undefined ? row.value : Number(now);
       const [from, to] = slide(row.value, row.minimum, row.maximum);
       const step = row.kind === "count" ? "1" : "any";
-      const slider = element("input", {
-        type: "range",
-        min: String(from),
-        max: String(to),
-        step,
-        value: String(value),
-        ariaLabel: `${row.key}, slider`,
-      });
-      const number = element("input", {
-        type: "number",
-        min: String(row.minimum),
-        max: String(row.maximum),
-        step,
-        value: String(value),
-      });
+      const ariaLabel = `${row.key}, slider`;
+      const slider = field("range", { min: from, max: to, step, value, ariaLabel });
+      const number = field("number", { min: row.minimum, max: row.maximum, step, value });
       const ships = String(row.value);
       const slid = (brief: boolean): void => {
         const to_take = rounded(Number(slider.value), from, to);
@@ -324,24 +290,27 @@ export class Lab {
   }
   private reset(): void {
     this.changes.clear();
+    this.rebuild();
+  }
+  private rebuild(): void {
     void this.trying(() => this.build().then(() => this.refly(false)));
   }
   /** Not while a slider moves: an address that changes costs as much as a picture. */
-  private tell(later_ms: number): void {
-    clearTimeout(this.telling);
-    const tell = (): void => {
+  private reportLater(later_ms: number): void {
+    clearTimeout(this.reporting);
+    const report = (): void => {
       this.host.calm();
-      this.told();
+      this.showChanges();
       this.swing.changed();
     };
     if (later_ms > 0) {
-      this.telling = setTimeout(tell, later_ms);
+      this.reporting = setTimeout(report, later_ms);
     } else {
-      tell();
+      report();
     }
   }
   /** The changes, in the page's address and in a list. */
-  private told(): void {
+  private showChanges(): void {
     history.replaceState(
       null,
       "",
@@ -349,10 +318,9 @@ export class Lab {
     );
     this.diff.replaceChildren(
       ...this.changes.list().map((text) => {
-        const forget = element("button", { type: "button", title: `Forget ${text}` }, "×");
-        forget.addEventListener("click", () => {
+        const forget = button("×", `Forget ${text}`, () => {
           this.changes.drop(text.slice(0, text.indexOf("=")));
-          void this.trying(() => this.build().then(() => this.refly(false)));
+          this.rebuild();
         });
         return element("li", {}, text, forget);
       }),
@@ -360,7 +328,7 @@ export class Lab {
   }
 
   private refly(brief: boolean): void {
-    clearTimeout(this.telling);
+    clearTimeout(this.reporting);
     this.reflights.wish(brief);
   }
   private reflown({ outcome, duration }: Recording, delay_ms: number): void {
@@ -370,18 +338,16 @@ export class Lab {
   private async save(): Promise<void> {
     await this.trying(async () => {
       const text = await server.yaml(this.wish());
-      const link = document.createElement("a");
-      link.download = `${this.changes.scenario}_changed.yaml`;
-      link.href = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
-      link.click();
-      URL.revokeObjectURL(link.href);
+      const file = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
+      download(`${this.changes.scenario}_changed.yaml`, file);
+      URL.revokeObjectURL(file);
     });
   }
   private async copy(): Promise<void> {
     await this.trying(() => navigator.clipboard.writeText(this.changes.command()));
     this.status.textContent = this.changes.command();
   }
-  /** For those who look at the page from outside. */
+  /** For tests and scripts. */
   state(): Record<string, unknown> {
     return {
       idle: this.reflights.idle && this.building === 0,

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which parameters a number of the flight hangs on: each is turned alone, less and more.
-import { button, element, labelled } from "./element";
+// Which parameters a number of the flight depends on: each is changed alone, down and up.
+import { about, button, element, field, labelled, options, tools } from "./element";
+import { Job, type JobHost } from "./job";
 import * as server from "./server";
 
-export interface LearnHost {
-  wish(): server.Wish;
-  trying(does: () => Promise<void>): Promise<void>;
-}
-
-const kEvery_ms = 500;
 const kBars = 15;
 const kUsual = "impact_force_N";
 
@@ -40,38 +35,27 @@ export function strongest(state: server.LearnState, metric: string, count: numbe
 
 export class Learn {
   readonly element = element("div", { className: "many learn" });
-  private readonly share = element("input", {
-    type: "number",
-    min: "0.1",
-    max: "90",
-    step: "any",
-    value: "10",
-  });
+  private readonly share = field("number", { min: 0.1, max: 90, value: 10 });
   private readonly metric = element("select", {});
-  private readonly stop = button("Stop", "Begin no more flights", () => void this.end());
-  private readonly bar = element("progress", { ariaLabel: "Flights flown", value: 0 });
-  private readonly told = element("output", { className: "status" });
+  private readonly job: Job;
   private readonly bars = element("ol", { className: "bars" });
   private readonly broken = element("p", { className: "what" });
   private state: server.LearnState | undefined;
-  private asking = false;
 
-  constructor(private readonly host: LearnHost) {
+  constructor(private readonly host: JobHost) {
+    this.job = new Job(host, "Flights flown", "Begin no more flights", server.learnStop);
     this.metric.addEventListener("change", () => this.draw());
-    this.stop.disabled = true;
     const fly = button("Turn them all", "Two flights for each number of the scenario", () =>
       this.begin(),
     );
     this.element.append(
-      element(
-        "p",
-        { className: "what" },
+      about(
         "The scenario above with its changes; each of its numbers turned alone, less and more, with the same random numbers.",
       ),
       labelled("Turned by", this.share, "%"),
-      element("div", { className: "tools" }, fly, this.stop),
-      this.bar,
-      this.told,
+      tools(fly, this.job.stop),
+      this.job.bar,
+      this.job.status,
       labelled("What it does to", this.metric),
       this.bars,
       this.broken,
@@ -87,37 +71,20 @@ export class Learn {
     });
     void this.follow();
   }
-  private async end(): Promise<void> {
-    await this.host.trying(() => server.learnStop());
-  }
-  private async follow(): Promise<void> {
-    if (this.asking) {
-      return;
-    }
-    this.asking = true;
-    await this.host.trying(async () => {
-      for (;;) {
-        this.take(await server.learnState());
-        if (this.state?.running !== true) {
-          break;
-        }
-        await new Promise((passed) => setTimeout(passed, kEvery_ms));
-      }
+  private follow(): Promise<void> {
+    return this.job.follow(async () => {
+      this.take(await server.learnState());
+      return this.state?.running === true;
     });
-    this.asking = false;
   }
   private take(state: server.LearnState): void {
     if (state.id === 0) {
       return;
     }
     this.state = state;
-    this.stop.disabled = !state.running;
-    this.bar.max = state.flights;
-    this.bar.value = state.flown;
+    this.job.show(state.running, state.flown, state.flights);
     if (this.metric.options.length === 0) {
-      this.metric.replaceChildren(
-        ...state.metrics.map((name) => element("option", { value: name }, name)),
-      );
+      this.metric.replaceChildren(...options(state.metrics));
       this.metric.value = kUsual;
     }
     this.draw();
@@ -134,7 +101,7 @@ export class Learn {
       base === null
         ? `${metric} did not come to pass in the flight as it is`
         : `${metric} of the flight as it is: ${text(base)}`;
-    this.told.textContent = `${state.flown} of ${state.flights} flights${ended}\n${now}`;
+    this.job.status.textContent = `${state.flown} of ${state.flights} flights${ended}\n${now}`;
     const bars = strongest(state, metric, kBars);
     const most = bars.reduce(
       (size, { less, more }) => Math.max(size, Math.abs(less ?? 0), Math.abs(more ?? 0)),
@@ -149,7 +116,7 @@ export class Learn {
     this.broken.textContent =
       others.length === 0 ? "" : `Other endings than ${state.base?.outcome}: ${others.join("; ")}`;
   }
-  /** For those who look at the page from outside. */
+  /** For tests and scripts. */
   outside(): Record<string, unknown> {
     const bars = this.state === undefined ? [] : strongest(this.state, this.metric.value, kBars);
     return {
@@ -171,13 +138,13 @@ function itemOf({ key, less, more, row }: Bar, most: number): HTMLElement {
     part.style.left = `${(change ?? 0) < 0 ? 50 - width : 50}%`;
     return part;
   };
-  const said = ({ value }: server.LearnFlight, change: number | undefined): string =>
+  const line = ({ value }: server.LearnFlight, change: number | undefined): string =>
     `${text(value)} ${row.unit}: ${change === undefined ? "none" : `${change > 0 ? "+" : ""}${text(change)}`}`;
   return element(
     "li",
     {},
     element("strong", {}, key),
     element("div", { className: "strip" }, strip(less, "less"), strip(more, "more")),
-    element("small", {}, `${said(row.less, less)} · ${said(row.more, more)}`),
+    element("small", {}, `${line(row.less, less)} · ${line(row.more, more)}`),
   );
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A flight in progress on this machine, in the page's scene and charts, with what may be asked of it.
+// A flight in progress on this machine, in the page's scene and charts, with the services that it offers.
 import { kColumns } from "../charts/panels";
 import { LiveFlight, liveAddress } from "../recording/live";
 import type { Recording } from "../recording/recording";
-import { button, element, labelled } from "./element";
+import { about, button, element, labelled, tools } from "./element";
+import type { JobHost } from "./job";
 import { Parameters } from "./live_parameters";
 
-export interface LiveHost {
-  trying(does: () => Promise<void>): Promise<void>;
-  /** Shows it as it is now, and now, until somebody seeks another time. */
+export interface LiveHost extends Pick<JobHost, "trying"> {
+  /** Shows its latest state until another time is sought. */
   follow(recording: Recording): void;
   grown(recording: Recording): void;
 }
@@ -31,14 +31,14 @@ export class Live {
   });
   private readonly end = button("Leave", "Watch it no more; it flies on", () => this.leave());
   private readonly now = button("Now", "Follow it again", () => this.follow());
-  private readonly services = element("div", { className: "tools" });
+  private readonly services = tools();
   private readonly parameters = new Parameters((name, value) => this.flight?.set(name, value));
-  private readonly told = element("output", { className: "status" });
-  private readonly lines = element("ul", { className: "diff", ariaLabel: "What was said" });
+  private readonly status = element("output", { className: "status" });
+  private readonly lines = element("ul", { className: "diff", ariaLabel: "Lines of the flight" });
   private flight: LiveFlight | undefined;
   private timer: ReturnType<typeof setInterval> | undefined;
   private shown = 0; // messages, when charts were drawn
-  private said: string[] = [];
+  private texts: string[] = [];
 
   constructor(private readonly host: LiveHost) {
     const watch = button("Watch", "Connect to this flight", () => this.watch());
@@ -48,14 +48,12 @@ export class Live {
       }
     });
     this.element.append(
-      element(
-        "p",
-        { className: "what" },
+      about(
         "A flight in progress on this machine: fly, companion or sim-io with --live prints its address.",
       ),
       labelled("Address", this.address),
-      element("div", { className: "tools" }, watch, this.now, this.end),
-      this.told,
+      tools(watch, this.now, this.end),
+      this.status,
       this.services,
       this.lines,
       this.parameters.element,
@@ -73,23 +71,23 @@ export class Live {
     void this.host.trying(async () => {
       const address = liveAddress(this.address.value);
       this.leave();
-      this.said = [];
+      this.texts = [];
       this.shown = 0;
       this.services.replaceChildren();
       this.parameters.clear();
       this.lines.replaceChildren();
-      this.told.textContent = "calling";
+      this.status.textContent = "connecting";
       const flight = new LiveFlight(address, kColumns, {
         services: (names) =>
           this.services.replaceChildren(
             ...names.map((name) =>
-              button(spoken(name), `Asks for ${name}; the flight says whether it may be`, () =>
-                flight.ask(name),
+              button(spoken(name), `Calls ${name}; the flight answers whether it is possible`, () =>
+                flight.call(name),
               ),
             ),
           ),
         parameters: (changed) => this.parameters.take(changed),
-        said: (text) => this.say(text),
+        text: (text) => this.show(text),
         closed: (why) => this.closed(flight, why),
       });
       this.flight = flight;
@@ -116,13 +114,13 @@ export class Live {
     clearInterval(this.timer);
     if (this.flight !== undefined) {
       this.flight = undefined;
-      this.told.textContent = why;
+      this.status.textContent = why;
       this.state(false);
     }
   }
-  private say(text: string): void {
-    this.said.push(text);
-    this.lines.replaceChildren(...this.said.slice(-kLines).map((line) => element("li", {}, line)));
+  private show(text: string): void {
+    this.texts.push(text);
+    this.lines.replaceChildren(...this.texts.slice(-kLines).map((line) => element("li", {}, line)));
   }
   private draw(): void {
     const { flight } = this;
@@ -138,15 +136,15 @@ export class Live {
       this.host.grown(recording);
     }
     const phase = recording.phases.at(-1)?.name.replaceAll("_", " ") ?? "";
-    this.told.textContent = `${recording.scenario} · ${recording.duration.toFixed(1)} s · ${phase}`;
+    this.status.textContent = `${recording.scenario} · ${recording.duration.toFixed(1)} s · ${phase}`;
   }
-  /** For those who look at the page from outside. */
+  /** For tests and scripts. */
   outside(): Record<string, unknown> {
     return {
       watching: this.flight !== undefined,
       messages: this.shown,
-      told: this.told.textContent,
-      said: [...this.said],
+      status: this.status.textContent,
+      texts: [...this.texts],
       parameters: this.parameters.outside(),
       services: [...this.services.querySelectorAll("button")].map((one) => one.textContent),
     };

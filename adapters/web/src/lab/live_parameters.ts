@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters that a flight in progress lets viewers set. It judges what is asked for, this shows what holds.
+// The parameters that a flight in progress lets viewers set. The flight checks each value; the page shows those that hold.
 import type { Parameter } from "../recording/live";
-import { element, labelled } from "./element";
+import { element, field, labelled } from "./element";
 
 interface Row {
   row: HTMLElement;
@@ -46,7 +46,7 @@ export class Parameters {
     this.filter();
   }
   private make({ name, minimum, maximum }: Parameter): Row {
-    const input = element("input", { type: "number", step: "any" });
+    const input = field("number");
     input.addEventListener("change", () => this.set(name, Number(input.value)));
     const row = element(
       "div",
@@ -64,7 +64,7 @@ export class Parameters {
       row.hidden = !name.toLowerCase().includes(wanted);
     }
   }
-  /** For those who look at the page from outside. */
+  /** For tests and scripts. */
   outside(): Record<string, number> {
     return Object.fromEntries(
       [...this.rows].map(([name, { input }]) => [name, Number(input.value)]),

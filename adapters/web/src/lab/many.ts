@@ -3,17 +3,15 @@
 import { kColumns } from "../charts/panels";
 import { type Recording, readRecording } from "../recording/recording";
 import { AxisChoice } from "./axis";
-import { button, element, labelled } from "./element";
+import { button, element, field, labelled, options, tools } from "./element";
+import { Job, type JobHost } from "./job";
 import { type AxisOf, drawMark, SuccessMap, type Value } from "./map";
 import * as server from "./server";
 
-export interface ManyHost {
-  wish(): server.Wish;
-  trying(does: () => Promise<void>): Promise<void>;
+export interface ManyHost extends JobHost {
   watch(recording: Recording): void;
 }
 
-const kEvery_ms = 300;
 const kOwn = ""; // not a campaign that ships: the scenario over axes
 
 export class Many {
@@ -24,31 +22,28 @@ export class Many {
     new AxisChoice("Along", { count: 6, otherwise: "guidance.dock_speed_m_s", none: true }),
     new AxisChoice("and along", { count: 6, otherwise: "", none: true }),
   ] as const;
-  private readonly repeats = element("input", { type: "number", min: "1", value: "10" });
+  private readonly repeats = field("number", { min: 1, step: "1", value: 10 });
   private readonly own: HTMLElement;
-  private readonly bar = element("progress", { ariaLabel: "Runs flown", value: 0 });
-  private readonly told = element("output", { className: "status" });
-  private readonly stop = button("Stop", "Begin no more flights", () => void this.end());
+  private readonly job: Job;
   private readonly across = element("select", { ariaLabel: "Across the map" });
   private readonly up = element("select", { ariaLabel: "Up the map" });
   private readonly legend = element("ul", { className: "legend" });
   private readonly map = new SuccessMap((run) => void this.look(run));
-  private readonly run = element("input", { type: "number", min: "0", value: "0" });
+  private readonly run = field("number", { min: 0, step: "1", value: 0 });
   private readonly found = element("div", { className: "found", hidden: true });
   private campaigns: server.Named[] = [];
   private state: server.ManyState | undefined;
   private rows: server.ManyRow[] = [];
-  private asking = false;
   private looked: { run: number; outcome: string; end: number } | undefined;
 
   constructor(private readonly host: ManyHost) {
+    this.job = new Job(host, "Runs flown", "Begin no more flights", server.manyStop);
     this.own = element(
       "div",
       {},
       ...this.axes.map((axis) => axis.element),
       labelled("Runs at each", this.repeats),
     );
-    this.stop.disabled = true;
     this.campaign.addEventListener("change", () => this.describe());
     for (const select of [this.across, this.up]) {
       select.addEventListener("change", () => this.draw());
@@ -58,19 +53,19 @@ export class Many {
       this.look(Number(this.run.value)),
     );
     this.found.append(
-      element("div", { className: "tools" }, labelled("Across", this.across)),
-      element("div", { className: "tools" }, labelled("Up", this.up)),
+      tools(labelled("Across", this.across)),
+      tools(labelled("Up", this.up)),
       this.map.canvas,
       this.legend,
-      element("div", { className: "tools" }, labelled("Run", this.run), look),
+      tools(labelled("Run", this.run), look),
     );
     this.element.append(
       labelled("Campaign", this.campaign),
       this.about,
       this.own,
-      element("div", { className: "tools" }, fly, this.stop),
-      this.bar,
-      this.told,
+      tools(fly, this.job.stop),
+      this.job.bar,
+      this.job.status,
       this.found,
     );
   }
@@ -80,7 +75,7 @@ export class Many {
     this.campaigns = campaigns;
     this.campaign.replaceChildren(
       element("option", { value: kOwn }, "this scenario over its parameters"),
-      ...campaigns.map(({ name }) => element("option", { value: name }, name)),
+      ...options(campaigns.map(({ name }) => name)),
     );
     this.campaign.value = before;
     for (const axis of this.axes) {
@@ -120,27 +115,15 @@ export class Many {
     });
     void this.follow();
   }
-  private async end(): Promise<void> {
-    await this.host.trying(() => server.manyStop());
-  }
-  /** Asks until the campaign has ended. */
-  private async follow(): Promise<void> {
-    if (this.asking) {
-      return;
-    }
-    this.asking = true;
-    await this.host.trying(async () => {
-      do {
-        const from = this.rows.length;
-        this.take(await server.manyRows(from), from);
-        if (this.state?.running === true) {
-          await new Promise((passed) => setTimeout(passed, kEvery_ms));
-        }
-      } while (this.state?.running === true || this.rows.length < (this.state?.finished ?? 0));
+  /** Until the campaign has ended and all its rows are here. */
+  private follow(): Promise<void> {
+    return this.job.follow(async () => {
+      const from = this.rows.length;
+      this.take(await server.manyRows(from), from);
+      return this.state?.running === true || this.rows.length < (this.state?.finished ?? 0);
     });
-    this.asking = false;
   }
-  /** @param from  how many of its rows were there when it was asked for */
+  /** @param from  how many of its rows were here at the request */
   private take(state: server.ManyState, from: number): void {
     if (state.id === 0) {
       return;
@@ -150,7 +133,7 @@ export class Many {
       this.rows = [];
     }
     this.state = state;
-    const fits = from === this.rows.length; // else it is asked for again
+    const fits = from === this.rows.length; // else it is requested again
     if (fits) {
       this.rows.push(...state.rows);
     }
@@ -160,19 +143,17 @@ export class Many {
       this.looked = undefined;
     }
     this.found.hidden = false;
-    this.stop.disabled = !state.running;
-    this.bar.max = state.runs;
-    this.bar.value = state.finished;
+    this.job.show(state.running, state.finished, state.runs);
     if (another || (fits && state.rows.length > 0)) {
       this.draw();
     }
-    this.tell(state);
+    this.report(state);
   }
-  private tell(state: server.ManyState): void {
+  private report(state: server.ManyState): void {
     const { success } = state;
     const left = state.running ? `, ${Math.ceil(state.left_s)} s left` : "";
     const ended = !state.running && state.finished < state.runs ? ", stopped" : "";
-    this.told.textContent = [
+    this.job.status.textContent = [
       `${state.name}, ${state.scenario}: ${state.finished} of ${state.runs} runs${left}${ended}`,
       `${success.outcomes.join(" or ")}: ${success.runs} of ${state.finished}, probability ${success.low.toFixed(2)} to ${success.high.toFixed(2)} (95 %)`,
       ...(state.folder === "" ? [] : [`kept in ${state.folder}`]),
@@ -182,7 +163,7 @@ export class Many {
   private offerAxes(state: server.ManyState): void {
     const names = [...state.keys.map(({ key }) => key), "repeat", ...state.metrics];
     for (const select of [this.across, this.up]) {
-      select.replaceChildren(...names.map((name) => element("option", { value: name }, name)));
+      select.replaceChildren(...options(names));
     }
     this.across.value = names[0] ?? "repeat";
     this.up.value = names[1] ?? "repeat";
@@ -207,14 +188,14 @@ export class Many {
     );
     const counts = new Map<
       string,
-      { outcome: string; told: string; success: boolean; runs: number }
+      { outcome: string; name: string; success: boolean; runs: number }
     >();
     for (const { outcome, success } of this.rows) {
       const untrue = !success && (this.state?.success.outcomes.includes(outcome) ?? false);
-      const told = untrue ? `${outcome}, but not in truth` : outcome;
-      const count = counts.get(told) ?? { outcome, told, success, runs: 0 };
+      const name = untrue ? `${outcome}, but not in truth` : outcome;
+      const count = counts.get(name) ?? { outcome, name, success, runs: 0 };
       count.runs += 1;
-      counts.set(told, count);
+      counts.set(name, count);
     }
     this.legend.replaceChildren(
       ...[...counts.values()]
@@ -225,16 +206,16 @@ export class Many {
           if (context !== null) {
             drawMark(context, count, 6, 6);
           }
-          return element("li", {}, sign, ` ${count.told} ${count.runs}`);
+          return element("li", {}, sign, ` ${count.name} ${count.runs}`);
         }),
     );
     this.map.canvas.ariaLabel = `${this.rows.length} runs, ${x.name} across, ${y.name} up: ${[
       ...counts.values(),
     ]
-      .map(({ told, runs }) => `${runs} ${told}`)
+      .map(({ name, runs }) => `${runs} ${name}`)
       .join(", ")}`;
   }
-  /** The server flies it to the state hash of its row, or says that it cannot. */
+  /** The server flies it to the state hash of its row, or reports that it cannot. */
   private async look(run: number): Promise<void> {
     const { state } = this;
     await this.host.trying(async () => {
@@ -249,13 +230,13 @@ export class Many {
       this.map.chosen = run;
       this.map.draw();
       this.looked = { run, outcome: recording.outcome, end: recording.duration };
-      this.told.textContent = [
+      this.job.status.textContent = [
         `run ${run}: ${row.outcome}${row.reason === "" ? "" : `, ${row.reason}`}; in truth ${row.true_end}`,
         ...state.keys.map(({ key }, k) => `${key} = ${row.values[k]}`),
       ].join("\n");
     });
   }
-  /** For those who look at the page from outside. */
+  /** For tests and scripts. */
   outside(): Record<string, unknown> {
     return {
       id: this.state?.id ?? 0,

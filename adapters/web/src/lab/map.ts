@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the runs of a campaign lie, by two of its numbers: a cell's ground is its share of success,
 // a point's colour its outcome.
+import { element } from "./element";
 
 export type Value = number | string | null;
 export interface Mark {
@@ -21,7 +22,7 @@ interface Place {
   y: number;
 }
 
-/** Okabe and Ito's colours, told apart by everybody; a success is round, the others are crosses. */
+/** Okabe and Ito's colours, distinguishable with colour blindness; a success is round, the others are crosses. */
 const kColours = new Map([
   ["released", "#0072b2"],
   ["perched", "#009e73"],
@@ -77,16 +78,22 @@ const kTop = 8;
 const kRight = 10;
 const kNear_px = 12;
 
+/** A map that is drawn anew as its size or the colours change. */
+export function mapCanvas(draw: () => void): HTMLCanvasElement {
+  const canvas = element("canvas", { className: "map", role: "img" });
+  new ResizeObserver(draw).observe(canvas);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  return canvas;
+}
+
 export class SuccessMap {
-  readonly canvas = document.createElement("canvas");
+  readonly canvas = mapCanvas(() => this.draw());
   private places: Place[] = [];
   private marks: Mark[] = [];
   private axes: [AxisOf, AxisOf] | undefined;
   chosen: number | undefined;
 
   constructor(private readonly choose: (run: number) => void) {
-    this.canvas.className = "map";
-    this.canvas.role = "img";
     this.canvas.addEventListener("click", (event) => {
       const near = this.nearest(event.offsetX, event.offsetY);
       if (near !== undefined) {
@@ -99,15 +106,13 @@ export class SuccessMap {
         near === undefined ? "" : `run ${near.run}: ${near.outcome}\n${near.x}, ${near.y}`;
       this.canvas.style.cursor = near === undefined ? "default" : "pointer";
     });
-    new ResizeObserver(() => this.draw()).observe(this.canvas);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
   show(axes: [AxisOf, AxisOf], marks: Mark[]): void {
     this.axes = axes;
     this.marks = marks;
     this.draw();
   }
-  /** In pixels of the canvas, for those who look at the page from outside. */
+  /** In pixels of the canvas, for tests and scripts. */
   placeOf(run: number): [number, number] | undefined {
     const found = this.places.find(({ mark }) => mark.run === run);
     return found && [found.x, found.y];
@@ -153,7 +158,7 @@ export class SuccessMap {
       }
     }
   }
-  /** Runs of one cell beside each other, in the order in which they landed. */
+  /** Runs of one cell side by side, in the order in which they ended. */
   private place(x: Scale, y: Scale, { toX, toY, wide, high }: Frame): void {
     const inCell = new Map<string, Mark[]>();
     for (const mark of this.marks) {

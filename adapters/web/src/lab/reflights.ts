@@ -2,6 +2,7 @@
 // A hand moves a slider; the scenario is flown again and again, as fast as pictures come.
 import { kColumns } from "../charts/panels";
 import { kSceneTopics, type Recording, readRecording } from "../recording/recording";
+import type { JobHost } from "./job";
 import * as server from "./server";
 
 /** Where the time goes from a hand to the picture [ms]. */
@@ -15,9 +16,7 @@ export interface Delay {
   picture: number; // until it has been drawn
 }
 
-export interface ReflightsHost {
-  wish(): server.Wish;
-  trying(does: () => Promise<void>): Promise<void>;
+export interface ReflightsHost extends JobHost {
   /** Over the flight that stands. @param brief  others follow at once */
   watch(recording: Recording, brief: boolean): void;
   /** What is watched stands there. */
@@ -69,7 +68,7 @@ export class Reflights {
   /** @param since  the hand moved, on the page's clock [ms] */
   private async fly(brief: boolean, since: number): Promise<Recording> {
     const wish = this.host.wish();
-    const asked = performance.now();
+    const sent = performance.now();
     const { bytes, flight } = await server.fly({
       ...wish,
       ...(brief ? { brief, topics: [...kSceneTopics, ...kColumns.keys()] } : {}),
@@ -84,9 +83,9 @@ export class Reflights {
       const now = performance.now();
       this.delays.push({
         all: now - since,
-        waits: asked - since,
+        waits: sent - since,
         flight,
-        way: came - asked - flight,
+        way: came - sent - flight,
         reading: read - came,
         scene: shown - read,
         picture: now - shown,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the lab's page asks its server for (limpet/lab/lab.hpp). The address carries the token.
+// Requests of the lab's page to its server (limpet/lab/lab.hpp). The address carries the token.
 
 export interface Row {
   key: string;
@@ -84,30 +84,32 @@ async function ask(path: string, wish?: object): Promise<Response> {
     wish && { method: "POST", body: JSON.stringify(wish) },
   );
   if (!answer.ok) {
-    throw new Error((await answer.text()).trim() || `the server says ${answer.status}`);
+    throw new Error((await answer.text()).trim() || `the server answers ${answer.status}`);
   }
   return answer;
 }
 
-export const catalogue = async (): Promise<Catalogue> =>
-  (await ask("/catalogue")).json() as Promise<Catalogue>;
-export const schema = async (wish: Wish): Promise<Schema> =>
-  (await ask("/schema", wish)).json() as Promise<Schema>;
+const json = async <T>(path: string, wish?: object): Promise<T> =>
+  (await ask(path, wish)).json() as Promise<T>;
+const done = async (path: string): Promise<void> => void (await ask(path, {}));
+const bytesOf = async (answer: Response): Promise<Uint8Array> =>
+  new Uint8Array(await answer.arrayBuffer());
+
+export const catalogue = () => json<Catalogue>("/catalogue");
+export const schema = (wish: Wish) => json<Schema>("/schema", wish);
 export const yaml = async (wish: Wish): Promise<string> => (await ask("/yaml", wish)).text();
 /** @returns the recording, and how long the server took for it [ms] */
 export async function fly(wish: Wish): Promise<{ bytes: Uint8Array; flight: number }> {
   const answer = await ask("/fly", wish);
-  const told = /dur=([\d.]+)/.exec(answer.headers.get("Server-Timing") ?? "");
-  return { bytes: new Uint8Array(await answer.arrayBuffer()), flight: Number(told?.[1] ?? 0) };
+  const timing = /dur=([\d.]+)/.exec(answer.headers.get("Server-Timing") ?? "");
+  return { bytes: await bytesOf(answer), flight: Number(timing?.[1] ?? 0) };
 }
 
-const state = async (path: string, wish: object): Promise<ManyState> =>
-  (await ask(path, wish)).json() as Promise<ManyState>;
-export const manyBegin = (wish: ManyWish): Promise<ManyState> => state("/many/begin", wish);
-export const manyRows = (from: number): Promise<ManyState> => state("/many/rows", { from });
-export const manyStop = async (): Promise<void> => void (await ask("/many/stop", {}));
+export const manyBegin = (wish: ManyWish) => json<ManyState>("/many/begin", wish);
+export const manyRows = (from: number) => json<ManyState>("/many/rows", { from });
+export const manyStop = () => done("/many/stop");
 export const manyFlight = async (id: number, run: number): Promise<Uint8Array> =>
-  new Uint8Array(await (await ask("/many/flight", { id, run })).arrayBuffer());
+  bytesOf(await ask("/many/flight", { id, run }));
 
 /** Of limpet/lab/learn.hpp */
 export interface LearnFlight {
@@ -130,11 +132,10 @@ export interface LearnState {
   base: LearnFlight | null;
   rows: LearnRow[];
 }
-export const learnBegin = async (wish: Wish & { share: number }): Promise<LearnState> =>
-  (await ask("/learn/begin", wish)).json() as Promise<LearnState>;
-export const learnState = async (): Promise<LearnState> =>
-  (await ask("/learn")).json() as Promise<LearnState>;
-export const learnStop = async (): Promise<void> => void (await ask("/learn/stop", {}));
+export const learnBegin = (wish: Wish & { share: number }) =>
+  json<LearnState>("/learn/begin", wish);
+export const learnState = () => json<LearnState>("/learn");
+export const learnStop = () => done("/learn/stop");
 
 /** Of limpet/lab/swing.hpp */
 export interface SwingAxis {
@@ -157,9 +158,7 @@ export interface SwingWishAxis {
   to: number;
   count: number;
 }
-export const swingBegin = async (
-  wish: Wish & { across: SwingWishAxis; up: SwingWishAxis },
-): Promise<SwingState> => (await ask("/swing/begin", wish)).json() as Promise<SwingState>;
-export const swingState = async (): Promise<SwingState> =>
-  (await ask("/swing")).json() as Promise<SwingState>;
-export const swingStop = async (): Promise<void> => void (await ask("/swing/stop", {}));
+export const swingBegin = (wish: Wish & { across: SwingWishAxis; up: SwingWishAxis }) =>
+  json<SwingState>("/swing/begin", wish);
+export const swingState = () => json<SwingState>("/swing");
+export const swingStop = () => done("/swing/stop");

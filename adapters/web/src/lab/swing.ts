@@ -2,18 +2,15 @@
 // The swing on the cup while it waits for the release: its growth over two numbers of the scenario.
 import { AxisChoice } from "./axis";
 import { rounded } from "./changes";
-import { button, element } from "./element";
+import { about, button, element, field, tools } from "./element";
 import { GrowthMap } from "./growth";
+import { Job, type JobHost } from "./job";
 import * as server from "./server";
 
-export interface SwingHost {
-  wish(): server.Wish;
-  trying(does: () => Promise<void>): Promise<void>;
+export interface SwingHost extends JobHost {
   /** Numbers of the scenario take these values, and it is flown. */
   turn(values: [string, number][], brief: boolean): void;
 }
-
-const kEvery_ms = 300;
 
 export class Swing {
   readonly element = element("section", { className: "swing", ariaLabel: "The swing on the cup" });
@@ -28,13 +25,12 @@ export class Swing {
     ],
   });
   private readonly up = new AxisChoice("Up", { count: 12, otherwise: "autopilot.MC_PITCHRATE_I" });
-  private readonly bar = element("progress", { ariaLabel: "Points of the map", value: 0 });
-  private readonly told = element("output", { className: "status" });
+  private readonly job: Job;
   private readonly map = new GrowthMap((across, up) =>
     this.host.turn([...this.numbers(this.across, across), ...this.numbers(this.up, up)], false),
   );
   private readonly sliders = [this.across, this.up].map((axis) => {
-    const slider = element("input", { type: "range", step: "any" });
+    const slider = field("range");
     const slid = (brief: boolean): void =>
       this.host.turn(this.numbers(axis, Number(slider.value)), brief);
     slider.addEventListener("input", () => slid(true));
@@ -42,34 +38,28 @@ export class Swing {
     return { axis, slider, name: element("span") };
   });
   private readonly found = element("div", { className: "found", hidden: true });
-  private readonly stop = button("Stop", "Work out no more points", () => void this.end());
   private state: server.SwingState | undefined;
   private seen = false;
-  private stale = false; // since the vehicle's point was asked for
-  private asking = false;
+  private stale = false; // since the vehicle's point was requested
 
   constructor(private readonly host: SwingHost) {
-    this.stop.disabled = true;
+    this.job = new Job(host, "Points of the map", "Compute no more points", server.swingStop);
     for (const axis of [this.across, this.up]) {
       axis.element.addEventListener("change", () => this.changed());
     }
     this.element.append(
       element("h2", {}, "The swing on the cup"),
-      element(
-        "p",
-        { className: "what" },
+      about(
         "While it waits for the release: growth of the pitch swing by the linearised loop, noise and gusts left out. Orange grows, blue decays; the ring is the vehicle as it is. A click on the map turns both numbers.",
       ),
       this.across.element,
       this.up.element,
-      element(
-        "div",
-        { className: "tools" },
+      tools(
         button("Draw the map", "Growth at each of these values", () => this.begin()),
-        this.stop,
+        this.job.stop,
       ),
-      this.bar,
-      this.told,
+      this.job.bar,
+      this.job.status,
       this.found,
     );
     this.found.append(
@@ -106,51 +96,34 @@ export class Swing {
     const { from, to } = axis.range();
     return axis.keys.map((key) => [key, rounded(value, from, to)]);
   }
-  private async end(): Promise<void> {
-    await this.host.trying(() => server.swingStop());
-  }
-  /** The latest wish, then how far it is until all is there. */
-  private async follow(): Promise<void> {
-    if (this.asking) {
-      return;
-    }
-    this.asking = true;
-    await this.host.trying(async () => {
-      for (let running = true; running || this.stale; ) {
-        if (this.stale) {
-          this.stale = false;
-          const [across, up] = [this.across, this.up].map((axis) => ({
-            keys: axis.keys,
-            ...axis.range(),
-          }));
-          this.take(
-            await server.swingBegin({
+  /** The latest wish, then its state until all points are there. */
+  private follow(): Promise<void> {
+    const wanted = (axis: AxisChoice) => ({ keys: axis.keys, ...axis.range() });
+    return this.job.follow(async () => {
+      const { stale } = this;
+      this.stale = false;
+      this.take(
+        stale
+          ? await server.swingBegin({
               ...this.host.wish(),
-              across: across as server.SwingWishAxis,
-              up: up as server.SwingWishAxis,
-            }),
-          );
-        } else {
-          await new Promise((passed) => setTimeout(passed, kEvery_ms));
-          this.take(await server.swingState());
-        }
-        running = this.state?.running === true;
-      }
+              across: wanted(this.across),
+              up: wanted(this.up),
+            })
+          : await server.swingState(),
+      );
+      return this.stale || this.state?.running === true;
     });
-    this.asking = false;
   }
   private take(state: server.SwingState): void {
     this.state = state;
-    this.stop.disabled = !state.running;
-    this.bar.max = state.growth_1_s.length;
-    this.bar.value = state.done;
+    this.job.show(state.running, state.done, state.growth_1_s.length);
     const none = state.growth_1_s.filter((growth) => growth === "none").length;
     const { growth_1_s, frequency_Hz } = state.own;
     const own =
       growth_1_s === null || frequency_Hz === null
         ? "This vehicle has no rest level on its cup, or no swing."
         : `This vehicle: ${growth_1_s > 0 ? "grows" : "decays"}, ${growth_1_s > 0 ? "+" : ""}${growth_1_s.toFixed(3)} 1/s at ${frequency_Hz.toFixed(2)} Hz.`;
-    this.told.textContent = [
+    this.job.status.textContent = [
       own,
       `${state.done} of ${state.growth_1_s.length} points${none > 0 ? `, ${none} without a rest or a swing` : ""}`,
     ].join("\n");
@@ -167,10 +140,10 @@ export class Swing {
     this.map.canvas.ariaLabel = `Growth over ${this.across.name} and ${this.up.name}. ${own}`;
     this.map.show(state, [this.across.name, this.up.name]);
   }
-  /** For those who look at the page from outside. */
+  /** For tests and scripts. */
   outside(): Record<string, unknown> {
     return {
-      idle: !this.asking,
+      idle: this.job.idle,
       ...this.state,
       place: this.map.own(),
     };

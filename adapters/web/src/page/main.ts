@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Chart, type Range, savePicture } from "../charts/chart";
 import { kColumns, kPanels } from "../charts/panels";
+import { button, messageOf } from "../lab/element";
 import { Lab } from "../lab/lab";
 import { type Recording, readRecording } from "../recording/recording";
 import { FlightView } from "../scene/flight";
@@ -93,7 +94,7 @@ class Page {
     this.range = undefined;
     this.refresh(recordings);
     this.view(this.stage.currentView);
-    this.say(
+    this.report(
       recordings
         .filter(({ damage }) => damage !== "")
         .map(({ name, damage }) => `${name}: ${damage}`)
@@ -156,7 +157,7 @@ class Page {
     await new Promise((drawn) => requestAnimationFrame(drawn));
     this.stage.finish();
   }
-  /** As it flies: at its latest time until somebody seeks another. */
+  /** As it flies: at its latest time until another is sought. */
   follow(recording: Recording): void {
     this.player.playing = false;
     if (this.recordings[0] !== recording) {
@@ -201,14 +202,14 @@ class Page {
         this.load(recordings);
       }
     } catch (problem) {
-      this.say(problem instanceof Error ? problem.message : String(problem));
+      this.report(messageOf(problem));
     }
   }
-  say(text: string): void {
+  report(text: string): void {
     by("problem").textContent = text;
     by("problem").hidden = text === "";
   }
-  /** For those who look at the page from outside: what it shows. */
+  /** For tests and scripts: what it shows. */
   state(): Record<string, unknown> {
     return {
       time: this.player.time,
@@ -255,21 +256,17 @@ class Page {
       this.recordings.map((recording) => Math.min(this.player.time, recording.duration)),
     );
     this.stage.look(name);
-    for (const button of by("views").querySelectorAll("button")) {
-      button.setAttribute("aria-pressed", String(button.dataset.view === name));
+    for (const one of by("views").querySelectorAll("button")) {
+      one.setAttribute("aria-pressed", String(one.dataset.view === name));
     }
     this.redraw();
   }
   private viewButtons(): void {
     by("views").append(
       ...kViews.map(([name, label], k) => {
-        const button = document.createElement("button");
-        button.type = "button";
-        button.textContent = label;
-        button.dataset.view = name;
-        button.title = `Camera: ${label} (key ${k + 1})`;
-        button.addEventListener("click", () => this.view(name));
-        return button;
+        const made = button(label, `Camera: ${label} (key ${k + 1})`, () => this.view(name));
+        made.dataset.view = name;
+        return made;
       }),
     );
   }
@@ -280,22 +277,21 @@ class Page {
       return;
     }
     const kStep_s = event.shiftKey ? 1 : 0.05;
-    const chosen = kViews[Number(event.key) - 1];
-    if (event.key === " " && !(event.target instanceof HTMLButtonElement)) {
-      this.toggle();
-    } else if (event.key === "ArrowRight") {
-      this.seek(this.player.time + kStep_s);
-    } else if (event.key === "ArrowLeft") {
-      this.seek(this.player.time - kStep_s);
-    } else if (event.key === "Home") {
-      this.seek(0);
-    } else if (event.key === "End") {
-      this.seek(this.player.end);
-    } else if (chosen !== undefined) {
-      this.view(chosen[0]);
-    } else {
+    const does = new Map<string, () => void>([
+      ["ArrowRight", () => this.seek(this.player.time + kStep_s)],
+      ["ArrowLeft", () => this.seek(this.player.time - kStep_s)],
+      ["Home", () => this.seek(0)],
+      ["End", () => this.seek(this.player.end)],
+      ...kViews.map(([name], k): [string, () => void] => [`${k + 1}`, () => this.view(name)]),
+    ]);
+    if (!(event.target instanceof HTMLButtonElement)) {
+      does.set(" ", () => this.toggle());
+    }
+    const act = does.get(event.key);
+    if (act === undefined) {
       return;
     }
+    act();
     event.preventDefault();
   }
   private theme(): void {
@@ -331,6 +327,4 @@ const lab = place === null ? undefined : new Lab(place, page);
 Object.assign(window, { limpet: page, lab });
 embedded()
   .then((recordings) => page.load(recordings))
-  .catch((problem: unknown) =>
-    page.say(problem instanceof Error ? problem.message : String(problem)),
-  );
+  .catch((problem: unknown) => page.report(messageOf(problem)));

@@ -11,7 +11,7 @@ export class Player {
 
   /**
    * @param step   shows the time as it is; @returns whether to go on with the next picture
-   * @param paced  while it plays, told how long after the one before a picture comes [ms]
+   * @param paced  while it plays, called with the time since the picture before [ms]
    */
   constructor(
     private readonly step: () => boolean,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The time of a flight: its phases as bars, its events as numbered marks, where we are.
+import { element } from "../lab/element";
 import type { FlightEvent, Recording } from "../recording/recording";
 
 const kSvg = "http://www.w3.org/2000/svg";
@@ -8,11 +9,11 @@ function svg<K extends keyof SVGElementTagNameMap>(
   name: K,
   attributes: Record<string, string | number>,
 ): SVGElementTagNameMap[K] {
-  const element = document.createElementNS(kSvg, name);
+  const made = document.createElementNS(kSvg, name);
   for (const [key, value] of Object.entries(attributes)) {
-    element.setAttribute(key, String(value));
+    made.setAttribute(key, String(value));
   }
-  return element;
+  return made;
 }
 
 const spoken = (name: string): string => name.replaceAll("_", " ");
@@ -26,10 +27,15 @@ export function eventText(event: FlightEvent): string {
 }
 
 export class Timeline {
-  readonly slider = document.createElement("input");
+  readonly slider = element("input", {
+    type: "range",
+    min: "0",
+    step: "0.001",
+    ariaLabel: "Time of the flight in seconds",
+  });
   private readonly bars = svg("svg", { class: "phases", role: "img", preserveAspectRatio: "none" });
-  private readonly list = document.createElement("ol");
-  private readonly phase = document.createElement("output");
+  private readonly list = element("ol");
+  private readonly phase = element("output", { className: "phase" });
   private items: HTMLLIElement[] = [];
   private recording: Recording | undefined;
   private current = -2;
@@ -39,12 +45,7 @@ export class Timeline {
     events: HTMLElement,
     private readonly seek: (t: number) => void,
   ) {
-    this.slider.type = "range";
-    this.slider.min = "0";
-    this.slider.step = "0.001";
-    this.slider.setAttribute("aria-label", "Time of the flight in seconds");
     this.slider.addEventListener("input", () => this.seek(Number(this.slider.value)));
-    this.phase.className = "phase";
     bars.append(this.bars, this.slider, this.phase);
     events.append(this.list);
   }
@@ -69,15 +70,14 @@ export class Timeline {
     this.list.append(...more);
   }
   private itemOf(event: FlightEvent): HTMLLIElement {
-    const item = document.createElement("li");
-    const button = document.createElement("button");
-    button.type = "button";
-    const time = document.createElement("time");
-    time.textContent = `${event.time.toFixed(3)} s`;
-    button.append(time, ` ${eventText(event)}`);
-    button.addEventListener("click", () => this.seek(event.time));
-    item.append(button);
-    return item;
+    const go = element(
+      "button",
+      { type: "button" },
+      element("time", {}, `${event.time.toFixed(3)} s`),
+      ` ${eventText(event)}`,
+    );
+    go.addEventListener("click", () => this.seek(event.time));
+    return element("li", {}, go);
   }
 
   show(t: number): void {

@@ -6,16 +6,16 @@ import { type Channel, secondsAt } from "./mcap";
 import { Builder, type Recording, type Wanted } from "./recording";
 
 export interface LiveNews {
-  /** What may be asked for, by name. */
+  /** Services that may be called, by name. */
   services(names: string[]): void;
   /** What it flies with, as it is now: all of them, then those that change. */
   parameters(changed: Parameter[]): void;
-  /** A line of the flight, or an answer to what was asked for. */
-  said(text: string): void;
+  /** A line of the flight, or the answer to a call. */
+  text(text: string): void;
   closed(why: string): void;
 }
 
-/** As the protocol has it, with what this program's flights say beside it. */
+/** As in the protocol; range and `settable` are additions of this program. */
 export interface Parameter {
   name: string;
   value: number;
@@ -27,7 +27,7 @@ interface Service {
   id: number;
   name: string;
 }
-type Told =
+type Sent =
   | { op: "serverInfo"; name: string; capabilities: string[] }
   | { op: "advertise"; channels: Channel[] }
   | { op: "advertiseServices"; services: Service[] }
@@ -55,7 +55,7 @@ export function liveAddress(text: string): URL {
   return url;
 }
 
-/** @returns the bytes that ask a service for what it does */
+/** @returns the bytes of a call of a service */
 export function callOf(service: number, call: number): Uint8Array<ArrayBuffer> {
   const encoding = new TextEncoder().encode("cdr");
   const bytes = new Uint8Array(13 + encoding.length + kNothing.length);
@@ -77,7 +77,7 @@ export class LiveFlight {
     parse("bool success\nstring message", { ros2: true }),
   );
   private calls = 0;
-  private readonly meshes: string[] = []; // that were asked for; their place is the request's number
+  private readonly meshes: string[] = []; // requested; their place is the request's number
   private fetches = false;
   messages = 0;
 
@@ -90,7 +90,7 @@ export class LiveFlight {
     this.socket = new WebSocket(address, kSubprotocols);
     this.socket.binaryType = "arraybuffer";
     this.socket.addEventListener("message", ({ data }: MessageEvent<string | ArrayBuffer>) =>
-      typeof data === "string" ? this.hear(JSON.parse(data) as Told) : this.take(data),
+      typeof data === "string" ? this.receive(JSON.parse(data) as Sent) : this.take(data),
     );
     this.socket.addEventListener("close", ({ code }) =>
       this.news.closed(
@@ -105,9 +105,9 @@ export class LiveFlight {
   }
   /** As far as it has come. */
   recording(): Recording {
-    return this.builder.tell();
+    return this.builder.built();
   }
-  ask(name: string): void {
+  call(name: string): void {
     const service = this.services.get(name);
     if (service !== undefined && this.socket.readyState === WebSocket.OPEN) {
       this.calls += 1;
@@ -115,7 +115,7 @@ export class LiveFlight {
     }
   }
 
-  /** It says what came of it: the value that holds, and why where it is another one. */
+  /** The flight answers with the value that holds, and the reason where it is another one. */
   set(name: string, value: number): void {
     if (Number.isFinite(value)) {
       this.send({ op: "setParameters", parameters: [{ name, value }], id: "set" });
@@ -127,34 +127,34 @@ export class LiveFlight {
     }
   }
 
-  private hear(told: Told): void {
-    switch (told.op) {
+  private receive(sent: Sent): void {
+    switch (sent.op) {
       case "serverInfo":
-        this.builder.recording.scenario = told.name.replace(/^limpet: /, "");
-        this.fetches = told.capabilities.includes("assets");
-        if (told.capabilities.includes("parameters")) {
+        this.builder.recording.scenario = sent.name.replace(/^limpet: /, "");
+        this.fetches = sent.capabilities.includes("assets");
+        if (sent.capabilities.includes("parameters")) {
           this.send({ op: "getParameters", parameterNames: [], id: "all" });
           this.send({ op: "subscribeParameterUpdates", parameterNames: [] });
         }
         break;
       case "parameterValues":
-        this.news.parameters(told.parameters);
+        this.news.parameters(sent.parameters);
         break;
       case "advertise": {
-        const wanted = told.channels.filter((channel) => this.builder.channel(channel));
+        const wanted = sent.channels.filter((channel) => this.builder.channel(channel));
         const subscriptions = wanted.map(({ id }) => ({ id, channelId: id }));
         this.send({ op: "subscribe", subscriptions });
         break;
       }
       case "advertiseServices":
-        for (const { id, name } of told.services) {
+        for (const { id, name } of sent.services) {
           this.services.set(name, id);
         }
         this.news.services([...this.services.keys()]);
         break;
       case "status":
       case "serviceCallFailure":
-        this.news.said(told.message);
+        this.news.text(sent.message);
         break;
     }
   }
@@ -172,7 +172,7 @@ export class LiveFlight {
       case kAnswer: {
         const from = 13 + view.getUint32(9, true);
         const { message } = this.answers.readMessage(new Uint8Array(data, from));
-        this.news.said(message);
+        this.news.text(message);
         break;
       }
     }
@@ -195,7 +195,7 @@ export class LiveFlight {
     const from = 10 + view.getUint32(6, true);
     const name = this.meshes[view.getUint32(1, true)]?.split("/").at(-1);
     if (view.getUint8(5) !== 0) {
-      this.news.said(new TextDecoder().decode(bytes.subarray(10, from)));
+      this.news.text(new TextDecoder().decode(bytes.subarray(10, from)));
     } else if (name !== undefined) {
       this.builder.attachment(name, bytes.subarray(from));
     }

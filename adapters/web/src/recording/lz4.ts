@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of LZ4, as chunks of a recording and whole files are packed. Checksums are passed over: a chunk has its own.
+// Frames of LZ4, as chunks of a recording and whole files are packed. Checksums are skipped: a chunk of an MCAP carries its own CRC.
 // Source: the frame format 1.6.4 and the block format of LZ4, https://github.com/lz4/lz4/tree/dev/doc
 
 export const kLz4Magic = 0x184d2204;
@@ -19,10 +19,10 @@ class Output {
   get taken(): Uint8Array {
     return this.bytes.subarray(0, this.at);
   }
-  private room(count: number): void {
+  private reserve(count: number): void {
     const wanted = this.at + count;
     if (wanted > this.most) {
-      throw new Error("it unpacks to more than it says");
+      throw new Error("it unpacks to more than its declared size");
     }
     if (wanted > this.bytes.length) {
       const larger = new Uint8Array(Math.min(this.most, Math.max(wanted, 2 * this.bytes.length)));
@@ -31,7 +31,7 @@ class Output {
     }
   }
   append(bytes: Uint8Array): void {
-    this.room(bytes.length);
+    this.reserve(bytes.length);
     this.bytes.set(bytes, this.at);
     this.at += bytes.length;
   }
@@ -40,7 +40,7 @@ class Output {
     if (back === 0 || back > this.at) {
       throw new Error("its LZ4 refers to what is not there");
     }
-    this.room(count);
+    this.reserve(count);
     for (let i = 0; i < count; ++i, ++this.at) {
       this.bytes[this.at] = this.bytes[this.at - back] as number;
     }

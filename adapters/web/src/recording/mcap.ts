@@ -46,7 +46,7 @@ const wide = (view: DataView, at: number): number =>
   view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
 /** @returns nanoseconds there in seconds */
 export const secondsAt = (view: DataView, at: number): number => 1e-9 * wide(view, at);
-/** First times from here on are a clock's and count from the first message (limpet/core/clock_origin.hpp). */
+/** First times from here on are a clock's and count from the first message (limpet/core/time.hpp). */
 const kClockBegins_s = 1e5;
 
 /** The fields of a record, in their order. */

@@ -41,21 +41,10 @@ export class Track {
 
 function between(a: Pose, b: Pose, share: number): Pose {
   const same = a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6] < 0 ? -1 : 1;
-  const mixed = a.map(
-    (value, i) => value + share * ((i < 3 ? 1 : same) * (b[i] as number) - value),
-  );
   // Samples are hundredths of a second apart: a straight line and its length's correction will do.
-  for (let i = 3; i < 7; ++i) {
-    mixed[i] = (1 - share) * (a[i] as number) + share * same * (b[i] as number);
-  }
-  const size = Math.hypot(
-    mixed[3] as number,
-    mixed[4] as number,
-    mixed[5] as number,
-    mixed[6] as number,
+  const mixed = a.map(
+    (value, i) => (1 - share) * value + share * (i < 3 ? 1 : same) * (b[i] as number),
   );
-  for (let i = 3; i < 7; ++i) {
-    mixed[i] = (mixed[i] as number) / size;
-  }
-  return mixed as Pose;
+  const size = Math.hypot(...mixed.slice(3));
+  return mixed.map((value, i) => (i < 3 ? value : value / size)) as Pose;
 }

@@ -137,7 +137,7 @@ type Take = (t: number, bytes: Uint8Array) => void;
 export class Builder implements McapTaker {
   private readonly takers = new Map<number, Take>();
   private readonly tables = new Map<string, TableBuilder>();
-  private readonly estimated = new Track("map"); // where the vehicle believes to be
+  private readonly estimated = new Track("map"); // the estimated pose of the vehicle
   private damages = 0;
   private firstDamage = "";
   readonly recording: Recording;
@@ -204,7 +204,7 @@ export class Builder implements McapTaker {
     }
   }
   /** Tables and phases as far as messages have come. */
-  tell(): Recording {
+  built(): Recording {
     const { recording } = this;
     for (const [topic, builder] of this.tables) {
       recording.tables.set(topic, builder.table());
@@ -377,7 +377,7 @@ export function readRecording(name: string, bytes: Uint8Array, columns: Wanted):
   } catch (problem) {
     throw new NotARecording(`${name} is not an MCAP recording: ${String(problem)}`);
   }
-  const recording = builder.tell();
+  const recording = builder.built();
   if (recording.tables.size === 0) {
     throw new NotARecording(`${name} holds no messages that this page reads`);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers over time, as a recording holds them.
 
-/** A column that grows: twice the room whenever it is full. */
+/** A column that grows: twice the space whenever it is full. */
 export class Column {
   private numbers = new Float64Array(256);
   private used = 0;

@@ -157,7 +157,7 @@ export class Shapes {
     this.root = definitions[0]?.definitions ?? [];
     this.types = new Map(definitions.map(({ name, definitions }) => [name ?? "", definitions]));
   }
-  /** @throws Error where it is not as its definition says */
+  /** @throws Error where it does not fit its definition */
   take(t: number, bytes: Uint8Array): void {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const at = this.known.findIndex(

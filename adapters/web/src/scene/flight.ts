@@ -22,7 +22,7 @@ export class FlightView {
   private sortedMarks = 0;
 
   /**
-   * @param ghost  beside another flight: the vehicle alone, seen through
+   * @param ghost  next to another flight: the vehicle alone, seen through
    * @param cut    of the wall, for the camera
    */
   constructor(

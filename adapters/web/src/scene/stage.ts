@@ -24,6 +24,13 @@ export const kViews: [ViewName, string][] = [
   ["overview", "Overview"],
 ];
 
+/** From what is looked at to the camera [m]: towards the wall, to the right, up. */
+const kFrom: Record<ViewName, [number, number, number]> = {
+  side: [-0.1, 2.2, 0],
+  cup: [-0.35, 0.55, 0.2],
+  chase: [-2.4, 0.5, 0.8],
+  overview: [-2.0, 3.2, 1.4],
+};
 const kBriefly = 0.5;
 /** Shares of the dots, from picture to picture while it plays. */
 const kDetails = [1, 0.7, 0.5, 0.35];
@@ -132,34 +139,12 @@ export class Stage {
     const ahead = this.ahead();
     const right = new Vector3(ahead.y, -ahead.x, 0);
     const target = view === "cup" ? lip : at.clone().addScaledVector(ahead, kAhead_m);
-    const from = new Vector3();
-    switch (view) {
-      case "side":
-        from.copy(target).addScaledVector(right, 2.2).addScaledVector(ahead, -0.1);
-        break;
-      case "cup":
-        from
-          .copy(target)
-          .addScaledVector(right, 0.55)
-          .addScaledVector(ahead, -0.35)
-          .add(new Vector3(0, 0, 0.2));
-        break;
-      case "chase":
-        from
-          .copy(target)
-          .addScaledVector(ahead, -2.4)
-          .addScaledVector(right, 0.5)
-          .add(new Vector3(0, 0, 0.8));
-        break;
-      case "overview":
-        from
-          .copy(target)
-          .addScaledVector(ahead, -2.0)
-          .addScaledVector(right, 3.2)
-          .add(new Vector3(0, 0, 1.4));
-        break;
-    }
-    this.camera.position.copy(from);
+    const [forward, aside, up] = kFrom[view];
+    this.camera.position
+      .copy(target)
+      .addScaledVector(ahead, forward)
+      .addScaledVector(right, aside)
+      .add(new Vector3(0, 0, up));
     this.controls.target.copy(target);
     this.controls.update();
     this.followed.copy(view === "cup" ? lip : at);
@@ -168,7 +153,7 @@ export class Stage {
     return this.view;
   }
 
-  /** Shows all at `t` [s], each flight at its own. */
+  /** Shows each flight at its time [s]. */
   draw(times: number[]): void {
     this.flights.forEach((flight, i) => {
       flight.show(times[i] ?? 0);
@@ -194,7 +179,7 @@ export class Stage {
       flight.dispose();
     }
   }
-  /** Waits until what was drawn is there: what is asked of a renderer is else done later. */
+  /** Waits until the renderer has drawn: it works later than it is called. */
   finish(): void {
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
@@ -229,9 +214,9 @@ export class Stage {
     this.controls.target.add(moved);
     this.controls.update();
     const ahead = this.ahead();
-    const kBeside_m = 0.45; // of the vehicle's middle: its rotors stay before the wall
+    const kCut_m = 0.45; // of the vehicle's middle: its rotors stay before the wall
     this.cut.normal.set(-ahead.y, ahead.x, 0);
-    this.cut.constant = this.view === "side" ? kBeside_m - this.cut.normal.dot(now) : kNowhere_m;
+    this.cut.constant = this.view === "side" ? kCut_m - this.cut.normal.dot(now) : kNowhere_m;
     this.sun.target.position.copy(now);
     this.sun.position
       .copy(now)

@@ -12,7 +12,7 @@ namespace actionlib {
 
 /// The part of actionlib's server that nodes use, as an action of ROS 2: three services and two
 /// topics under NAME/_action. A goal is accepted or rejected before its callback returns; ROS 2 has
-/// no words for why, so the texts that actionlib takes beside a result go nowhere.
+/// no words for why, so the texts that actionlib takes with a result are dropped.
 /// @tparam Action  of interfaces.py: limpet_ros::PerchingAction
 template <class Action>
 class ActionServer {

@@ -11,8 +11,8 @@
 
 namespace limpet::ros {
 
-[[nodiscard]] inline ::ros::Publisher tell_description(::ros::NodeHandle& node,
-                                                       const vehicle::Airframe& airframe) {
+[[nodiscard]] inline ::ros::Publisher publish_description(::ros::NodeHandle& node,
+                                                          const vehicle::Airframe& airframe) {
     ::ros::Publisher stays = node.advertise<std_msgs::String>("robot_description", 1, true);
     std_msgs::String text;
     text.data = models::write_robot_description(airframe);

@@ -1,0 +1,22 @@
+# For what builds separately from the program, for other programs: Gazebo's plugins, ROS's nodes. The
+# language, and the modules that they link, no others: no figures, and MuJoCo only where it is a target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+include(${CMAKE_CURRENT_LIST_DIR}/modules.cmake)
+set(LIMPET_DATA_DIR ${LIMPET_ROOT}/data)
+find_package(Eigen3 3.3 REQUIRED)
+find_package(fmt REQUIRED)
+set(loaded)
+if(TARGET mujoco)
+  set(loaded loaded)
+endif()
+foreach(module core ${loaded} wire mcap suction vehicle guidance meshes models plant record sensors faults autopilot mavlink ground_station px4 devices scenario simulation)
+  add_subdirectory(${LIMPET_ROOT}/limpet/${module} limpet/${module})
+endforeach()
