@@ -135,6 +135,7 @@ std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerfor
     json["send_jitter"] = json_of(hil.send_jitter);
     json["wall_s"] = performance.wall_s;
     json["waited_for_autopilot_s"] = performance.waited_s;
+    json["parameters_that_differ"] = differences_;
     if (const auto own_share = performance.own_share()) {
         json["own_share"] = *own_share;
     }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -23,6 +24,25 @@ px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Sc
     addresses.patience_s = options.patience_s;
     addresses.only_px4 = options.only_px4;
     return addresses;
+}
+
+/// As `px4-params` would set it, less what the PX4 that was started has no more.
+std::vector<mavlink::ExpectedParameter> expected(const Px4LinkOptions& options,
+                                                 const scenario::Scenario& scenario,
+                                                 const std::vector<std::string>& left_out,
+                                                 Terminal& terminal) {
+    px4::Px4Airframe airframe = simulation::px4_airframe(scenario);
+    airframe.target = options.serial() ? px4::Px4Target::hitl : px4::Px4Target::sitl;
+    try {
+        auto parameters = px4::expected_parameters(px4_settings(airframe));
+        std::erase_if(parameters, [&](const mavlink::ExpectedParameter& each) {
+            return std::find(left_out.begin(), left_out.end(), each.name) != left_out.end();
+        });
+        return parameters;
+    } catch (const InputError& error) {  // the stand-in may fly with what PX4 does not take
+        terminal.line("note", fmt::format("parameters are not compared: {}", error.what()));
+        return {};
+    }
 }
 
 /// How to start what is waited for, to be copied.
@@ -153,13 +173,34 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
             [&terminal](const std::string& text) {
                 terminal.line(terminal.dim("          PX4: " + text));
             },
+        .on_difference =
+            [this, &terminal](const std::vector<mavlink::ParameterDifference>& found) {
+                constexpr std::size_t kMostShown = 5;
+                for (const mavlink::ParameterDifference& difference : found) {
+                    differences_.push_back(text_of(difference));
+                    if (differences_.size() <= kMostShown) {
+                        terminal.line(differences_.size() == 1 ? "parameters" : "",
+                                      differences_.back());
+                    }
+                }
+                if (found.size() > kMostShown) {
+                    terminal.line("", fmt::format("and {} more (all in link.json); limpet "
+                                                  "px4-params writes what is expected",
+                                                  found.size() - kMostShown));
+                }
+            },
         .wait_key = "--wait SECONDS"};
     if (wire_log_) {
         watch.tap = [this](auto wire) { return tapped(std::move(wire), *wire_log_); };
     }
     try {
-        wires_.emplace(addresses_of(options, *model.scenario), model.control_rate_Hz, flies, watch,
-                       stop);
+        px4::Px4Addresses addresses = addresses_of(options, *model.scenario);
+        if (flies) {
+            addresses.expected =
+                expected(options, *model.scenario,
+                         process_ ? process_->left_out() : std::vector<std::string>(), terminal);
+        }
+        wires_.emplace(addresses, model.control_rate_Hz, flies, watch, stop);
     } catch (...) {
         std::error_code ignored;  // a wire on which nothing went is no log
         std::filesystem::remove(folder / "wire.mcap.part", ignored);

@@ -88,6 +88,7 @@ private:
     std::optional<px4::Px4Process> process_;
     std::filesystem::path folder_;  ///< next to the recording; empty: there is none
     bool kept_ = false;
+    std::vector<std::string> differences_;  ///< of parameters, for people
     std::unique_ptr<simulation::WireLog> wire_log_;
     std::optional<px4::Px4Wires> wires_;
     double speed_ = 0.0;  ///< times real time; 0: as fast as possible

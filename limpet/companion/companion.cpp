@@ -274,7 +274,7 @@ void Companion::tell(double time_s) {
         const auto boot_ms = static_cast<std::uint32_t>(std::llround(time_s * 1e3));
         send_sensors(mavlink::guidance_state(static_cast<int>(memory().state), boot_ms));
     } else if (phase() == SessionPhase::handed_back && !over_) {
-        send_sensors(last_word());
+        send_last_word();
         send_sensors(mavlink::Heartbeat{.type = mavlink::MavType::onboard_controller,
                                         .autopilot = mavlink::MavAutopilot::invalid,
                                         .system_status = mavlink::MavState::poweroff,
@@ -282,13 +282,18 @@ void Companion::tell(double time_s) {
     }
 }
 
-mavlink::StatusText Companion::last_word() const {
+void Companion::send_text(mavlink::MavSeverity::Value severity, const std::string& text) {
+    splitter_.split(severity, text,
+                    [this](const mavlink::StatusText& piece) { send_sensors(piece); });
+}
+
+void Companion::send_last_word() {
     if (result_.outcome) {
-        return mavlink::outcome_text(*result_.outcome, result_.reason);
+        send_text(mavlink::MavSeverity::info,
+                  mavlink::outcome_text(*result_.outcome, result_.reason));
+    } else {
+        send_text(mavlink::MavSeverity::warning, "handed back: " + result_.reason);
     }
-    mavlink::StatusText text{.severity = mavlink::MavSeverity::warning};
-    mavlink::set_text(text.text, "handed back: " + result_.reason);
-    return text;
 }
 
 void Companion::record(double time_s) {
@@ -310,7 +315,7 @@ void Companion::report(const Event& event) {
     result_.events.push_back(event);
     write(event.time_s, [&](record::Recorder& to) { to.event(event); });
     if (wires_.sensors && !dry_run_) {
-        send_sensors(mavlink::event_text(event));
+        send_text(mavlink::MavSeverity::info, mavlink::event_text(event));
     }
     watch_.event(event);
 }

@@ -92,7 +92,8 @@ private:
     void send_sensors(const Message& message) {
         (void)wires_.sensors->send(message, std::chrono::milliseconds(5));
     }
-    [[nodiscard]] mavlink::StatusText last_word() const;
+    void send_text(mavlink::MavSeverity::Value severity, const std::string& text);
+    void send_last_word();
     void record(double time_s);
     template <class Write>
     void write(double time_s, const Write& writes);
@@ -106,6 +107,7 @@ private:
     CompanionWatch watch_;
     mavlink::Offboard offboard_;
     Inputs inputs_;
+    mavlink::TextSplitter splitter_;
     PoseWatch pose_watch_;
     Sample<PoseReading> pose_;                              ///< that the watch trusts
     double watched_s_ = -1.0;                               ///< of the last pose that it saw

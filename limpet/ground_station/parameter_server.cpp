@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/mavlink/parameter_value.hpp"
 
 namespace limpet::ground_station {
 using namespace mavlink;
@@ -19,22 +19,6 @@ constexpr std::size_t kLongestName = 16;
 
 std::uint8_t type_of(const ServedParameter& parameter) {
     return parameter.int32 ? MavParamType::int32 : MavParamType::real32;
-}
-
-/// An integer's bytes stand in the float, as PX4 has it.
-float value_on_wire(const ServedParameter& parameter) {
-    auto value = static_cast<float>(parameter.value);
-    if (parameter.int32) {
-        const auto whole = static_cast<std::int32_t>(parameter.value);
-        std::memcpy(&value, &whole, sizeof(value));
-    }
-    return value;
-}
-
-double value_of(const ParamSet& message) {
-    std::int32_t whole = 0;
-    std::memcpy(&whole, &message.param_value, sizeof(whole));
-    return message.param_type == MavParamType::int32 ? whole : double{message.param_value};
 }
 
 }  // namespace
@@ -61,10 +45,11 @@ void ParameterServer::answer(std::size_t index, Link& link) const {
     if (index >= parameters_.size()) {
         return;  // the protocol has no answer for what is not there
     }
-    ParamValue message{.param_value = value_on_wire(parameters_[index]),
-                       .param_type = type_of(parameters_[index]),
-                       .param_count = static_cast<std::uint16_t>(parameters_.size()),
-                       .param_index = static_cast<std::uint16_t>(index)};
+    ParamValue message{
+        .param_value = parameter_on_wire(parameters_[index].value, parameters_[index].int32),
+        .param_type = type_of(parameters_[index]),
+        .param_count = static_cast<std::uint16_t>(parameters_.size()),
+        .param_index = static_cast<std::uint16_t>(index)};
     set_text(message.param_id, parameters_[index].name);
     (void)link.send(message, kAtOnce);
 }
@@ -75,7 +60,7 @@ void ParameterServer::set(const ParamSet& message, Link& link) {
         return;
     }
     ServedParameter& parameter = parameters_[index];
-    const double wanted = value_of(message);
+    const double wanted = parameter_value(message);
     std::array<char, 160> text = {};
     const auto refuse = [&](auto format, const auto&... values) {
         const auto end = fmt::format_to_n(text.data(), text.size(), format, values...).out;

@@ -222,21 +222,7 @@ void Telemetry::event(const Event& event) {
 }
 
 void Telemetry::text(Severity severity, std::string_view text) {
-    StatusText message{.severity = severity};
-    constexpr std::size_t kChunk = std::tuple_size_v<decltype(message.text)>;
-    if (text.size() <= kChunk) {
-        set_text(message.text, text);
-        return post(message);
-    }
-    text_id_ = static_cast<std::uint16_t>(text_id_ == 65535 ? 1 : text_id_ + 1);
-    message.id = text_id_;
-    // A NUL ends it: a text that fills its last chunk is followed by an empty one.
-    for (bool ended = false; !ended; ++message.chunk_seq) {
-        ended = text.size() < kChunk;
-        set_text(message.text, text.substr(0, kChunk));
-        text.remove_prefix(std::min(kChunk, text.size()));
-        post(message);
-    }
+    texts_.split(severity, text, [this](const StatusText& message) { post(message); });
 }
 
 }  // namespace limpet::ground_station

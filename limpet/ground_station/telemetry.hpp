@@ -13,6 +13,7 @@
 #include "limpet/ground_station/stream_timing.hpp"
 #include "limpet/ground_station/telemetry_messages.hpp"
 #include "limpet/mavlink/link.hpp"
+#include "limpet/mavlink/status_text.hpp"
 
 /// What a ground station (QGroundControl) sees of a vehicle, and what it may request. All time is
 /// the vehicle's: rates and stamps follow the `time_s` that is given.
@@ -71,7 +72,7 @@ private:
     ParameterServer parameters_;
     std::array<StreamTiming, std::tuple_size_v<decltype(kStreams)>> timing_;
     std::optional<Vector3> home_W_m_;  ///< where the first valid estimate was
-    std::uint16_t text_id_ = 0;        ///< of the last text in chunks
+    mavlink::TextSplitter texts_;
 };
 
 }  // namespace limpet::ground_station

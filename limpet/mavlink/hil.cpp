@@ -35,7 +35,8 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec,
     }
     link_.cork();
     if (readings.gps.newer_than(last_.gps)) {
-        (void)link_.send(hil_gps(readings.gps.value, options_.origin, time_usec));
+        (void)link_.send(
+            hil_gps(readings.gps.value, options_.origin, options_.utc_start_us + time_usec));
     }
     if (options_.motion_capture && readings.motion_capture.newer_than(last_.motion_capture)) {
         (void)link_.send(odometry(readings.motion_capture.value, time_usec));

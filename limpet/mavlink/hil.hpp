@@ -28,7 +28,8 @@ struct HilOptions {
     std::chrono::milliseconds boot_limit{60000};   ///< longest wait for the first answer, wall time
     double stale_limit_s = 0.5;                    ///< real time: motors older than this are lost
     GeographicOrigin origin = {};
-    bool motion_capture = true;               ///< send poses too; false: a companion does
+    std::uint64_t utc_start_us = 0;  ///< of the clock of its messages [us since 1970 UTC]; for GPS
+    bool motion_capture = true;      ///< send poses too; false: a companion does
     const std::atomic<bool>* stop = nullptr;  ///< set by Ctrl-C
 };
 

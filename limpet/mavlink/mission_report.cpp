@@ -11,15 +11,6 @@ namespace {
 constexpr std::string_view kOutcome = "outcome";
 constexpr std::string_view kAnd = ": ";
 
-/// What does not fit is cut.
-template <class... Pieces>
-StatusText info(const Pieces&... pieces) {
-    StatusText message{.severity = MavSeverity::info};
-    const std::array<std::string_view, sizeof...(pieces)> all = {pieces...};
-    fmt::format_to_n(message.text.data(), message.text.size(), "{}", fmt::join(all, ""));
-    return message;
-}
-
 struct Parts {
     std::string_view head;
     std::string_view rest;
@@ -32,28 +23,28 @@ Parts part(std::string_view text) {
 
 }  // namespace
 
-StatusText event_text(const Event& event) {
-    return event.reason.empty() ? info(to_string(event.name))
-                                : info(to_string(event.name), kAnd, event.reason);
+std::string event_text(const Event& event) {
+    return event.reason.empty() ? std::string(to_string(event.name))
+                                : fmt::format("{}{}{}", to_string(event.name), kAnd, event.reason);
 }
 
-std::optional<EventName> event_name(const StatusText& message) {
-    const std::string_view head = part(text_of(message.text)).head;
+std::optional<ToldEvent> told_event(std::string_view text) {
+    const Parts parts = part(text);
     for (int i = 0; i <= static_cast<int>(EventName::aborted); ++i) {
         const auto name = static_cast<EventName>(i);
-        if (to_string(name) == head) {
-            return name;
+        if (to_string(name) == parts.head) {
+            return ToldEvent{.name = name, .reason = parts.rest};
         }
     }
     return std::nullopt;
 }
 
-StatusText outcome_text(Outcome outcome, std::string_view reason) {
-    return info(kOutcome, kAnd, to_string(outcome), kAnd, reason);
+std::string outcome_text(Outcome outcome, std::string_view reason) {
+    return fmt::format("{}{}{}{}{}", kOutcome, kAnd, to_string(outcome), kAnd, reason);
 }
 
-std::optional<ToldOutcome> told_outcome(const StatusText& message) {
-    const Parts whole = part(text_of(message.text));
+std::optional<ToldOutcome> told_outcome(std::string_view text) {
+    const Parts whole = part(text);
     const Parts parts = part(whole.rest);
     const std::optional<Outcome> outcome = outcome_from(parts.head);
     if (whole.head != kOutcome || !outcome) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "limpet/core/signals/event.hpp"
@@ -10,22 +11,26 @@
 #include "limpet/mavlink/messages.hpp"
 
 /// What a companion reports of its mission, on the sensors' wire and to people: events and the
-/// outcome as STATUSTEXT, the state of guidance as NAMED_VALUE_FLOAT. The last heartbeats carry
-/// MavState::poweroff (mechanism.hpp).
+/// outcome as STATUSTEXT (in chunks, status_text.hpp), the state of guidance as NAMED_VALUE_FLOAT.
+/// The last heartbeats carry MavState::poweroff (mechanism.hpp).
 namespace limpet::mavlink {
 
-/// "perched: reason", at most 50 letters.
-[[nodiscard]] StatusText event_text(const Event& event);
+/// "perched: reason".
+[[nodiscard]] std::string event_text(const Event& event);
+struct ToldEvent {
+    EventName name = EventName::aborted;
+    std::string_view reason;  ///< lives as long as the text
+};
 /// @return nothing for texts that are no event's
-[[nodiscard]] std::optional<EventName> event_name(const StatusText& message);
+[[nodiscard]] std::optional<ToldEvent> told_event(std::string_view text);
 
 struct ToldOutcome {
     Outcome outcome = Outcome::timed_out;
-    std::string_view reason;  ///< lives as long as the message
+    std::string_view reason;  ///< lives as long as the text
 };
-/// "outcome: released: reason", at most 50 letters.
-[[nodiscard]] StatusText outcome_text(Outcome outcome, std::string_view reason);
-[[nodiscard]] std::optional<ToldOutcome> told_outcome(const StatusText& message);
+/// "outcome: released: reason".
+[[nodiscard]] std::string outcome_text(Outcome outcome, std::string_view reason);
+[[nodiscard]] std::optional<ToldOutcome> told_outcome(std::string_view text);
 
 /// Name of the NAMED_VALUE_FLOAT with the number of guidance's state, 0 the first.
 inline constexpr std::string_view kGuidanceStateName = "guid_state";

@@ -3,27 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
-#include <cstring>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/mavlink/numbers.hpp"
+#include "limpet/mavlink/parameter_value.hpp"
 #include "limpet/mavlink/translate.hpp"
 
 namespace limpet::mavlink {
 namespace {
-
-constexpr int kMostChunks = 20;
-
-std::string fit_to_print(std::string_view text) {
-    std::string out(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
-    std::replace_if(
-        out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return out;
-}
 
 /// Space in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
@@ -38,6 +30,26 @@ bool again(double& last_s, double interval_s, double time_s) {
     }
     last_s = time_s;
     return true;
+}
+
+/// "barometer, GPS"; empty: all is well. Of those parts that a flight needs.
+std::string sensors_text(std::uint32_t sensors) {
+    using Bit = MavSysStatusSensor;
+    constexpr std::array<std::pair<std::uint32_t, std::string_view>, 7> kParts = {
+        {{Bit::sensor_3d_gyro, "gyroscope"},
+         {Bit::sensor_3d_accel, "accelerometer"},
+         {Bit::sensor_3d_mag, "magnetometer"},
+         {Bit::absolute_pressure, "barometer"},
+         {Bit::gps, "GPS"},
+         {Bit::vision_position, "motion capture"},
+         {Bit::battery, "battery"}}};
+    std::string text;
+    for (const auto& [bit, name] : kParts) {
+        if ((sensors & bit) != 0) {
+            text += (text.empty() ? "" : ", ") + std::string(name);
+        }
+    }
+    return text;
 }
 
 std::string_view command_name(std::uint16_t command) {
@@ -60,8 +72,12 @@ void Offboard::hear(const Frame& frame, double time_s) {
     if (const auto beat = decode<Heartbeat>(frame)) {
         if (beat->type == MavType::quadrotor || beat->autopilot != MavAutopilot::invalid) {
             heartbeat_s_ = time_s;
-            report_.armed = (beat->base_mode & MavModeFlag::safety_armed) != 0;
-            was_armed_ = was_armed_ || report_.armed;
+            const bool armed = (beat->base_mode & MavModeFlag::safety_armed) != 0;
+            if (armed && !report_.armed) {
+                report_.warnings.clear();
+            }
+            report_.armed = armed;
+            was_armed_ = was_armed_ || armed;
             report_.custom_mode = beat->custom_mode;
             report_.offboard = main_mode(beat->custom_mode) == kMainModeOffboard;
             was_engaged_ = was_engaged_ || (report_.offboard && streaming_s_ >= 0.0);
@@ -77,18 +93,20 @@ void Offboard::hear(const Frame& frame, double time_s) {
         report_.landed_state = system_state->landed_state;
     } else if (const auto text = decode<StatusText>(frame)) {
         if (auto whole = texts_.hear(*text)) {
+            report_.warnings.add(text->severity, *whole);
             report_.text = std::move(*whole);
             ++report_.texts;
         }
     } else if (const auto version = decode<AutopilotVersion>(frame)) {
         report_.version = *version;
+    } else if (const auto status = decode<SysStatus>(frame)) {
+        report_.unhealthy =
+            status->onboard_control_sensors_enabled & ~status->onboard_control_sensors_health;
     } else if (decode<GpsGlobalOrigin>(frame)) {
         report_.has_origin = true;
     } else if (const auto value = decode<ParamValue>(frame)) {
         if (text_of(value->param_id) == kAirframe && value->param_type == MavParamType::int32) {
-            std::int32_t number = 0;  // PX4 puts an integer's bytes into the float
-            std::memcpy(&number, &value->param_value, sizeof(number));
-            report_.airframe = number;
+            report_.airframe = static_cast<int>(parameter_value(*value));
         }
     } else if (const auto ack = decode<CommandAck>(frame)) {
         if (addressed_to(self_, *ack)) {  // a ground station's commands are answered too
@@ -111,7 +129,11 @@ void Offboard::hear_command_ack(const CommandAck& ack) {
     } else if (ack.command == MavCmd::request_message) {
         // Every autopilot has what else is requested; one that is busy has not reported it.
         no_origin_ = no_origin_ || ack.result != MavResult::temporarily_rejected;
-    } else if (ack.command != MavCmd::set_message_interval) {
+    } else if (ack.command == MavCmd::set_message_interval) {
+        report_.refused_rate = ack.result == MavResult::denied ||
+                               ack.result == MavResult::unsupported ||
+                               ack.result == MavResult::failed;
+    } else {
         report_.refused_command = ack.command;
         report_.refused_result = ack.result;
     }
@@ -243,7 +265,12 @@ void Offboard::request_rate(Link& link) {
     }
 }
 
-/// For the record: a flight does not wait for it.
+bool Offboard::asks_who() const {
+    constexpr int kWorthAWait = 3;
+    return !report_.version && who_requests_ < kWorthAWait;
+}
+
+/// For the record: a flight does not wait for it, but for the first requests.
 void Offboard::ask_who(Link& link) {
     constexpr int kTimes = 40;  // PX4 answers by a clock of its own, while simulated seconds fly by
     if (who_requests_ >= kTimes || (report_.version && report_.airframe)) {
@@ -321,11 +348,20 @@ std::string Offboard::obstacle(double time_s) const {
             text += fmt::format("; it refused {} ({})", command_name(report_.refused_command),
                                 report_.refused_result);
         }
-        return report_.text.empty() ? text : text + "; it reported \"" + report_.text + "\"";
+        if (const std::string parts = sensors_text(report_.unhealthy); !parts.empty()) {
+            text += "; not healthy: " + parts;
+        }
+        if (const auto& warnings = report_.warnings.texts(); !warnings.empty()) {
+            text += fmt::format("; it reported \"{}\"", fmt::join(warnings, "\", \""));
+        }
+        return text;
     };
     switch (state(time_s)) {
         case OffboardState::silent: return "no heartbeat of the autopilot";
-        case OffboardState::unready: return with_reason("the autopilot sends no fresh pose");
+        case OffboardState::unready:
+            return with_reason(report_.refused_rate
+                                   ? "the autopilot does not send ODOMETRY on request"
+                                   : "the autopilot sends no fresh pose");
         case OffboardState::streaming:
             return with_reason(options_.asks_for_mode ? "the autopilot is not in OFFBOARD mode yet"
                                                       : "waits for the mode OFFBOARD");
@@ -333,36 +369,6 @@ std::string Offboard::obstacle(double time_s) const {
         case OffboardState::engaged: return report_.armed ? "" : with_reason("not armed yet");
     }
     throw InternalError("offboard state out of range");
-}
-
-std::optional<std::string> TextJoiner::give_up() {
-    id_ = 0;
-    next_chunk_ = 0;
-    const std::string text = std::exchange(text_, {});
-    return text.empty() ? std::nullopt : std::optional(fit_to_print(text) + "...");
-}
-
-std::optional<std::string> TextJoiner::hear(const StatusText& message) {
-    const std::string_view piece = text_of(message.text);
-    if (message.id == 0) {
-        return fit_to_print(piece);
-    }
-    std::optional<std::string> cut;
-    if (message.id != id_ || message.chunk_seq != next_chunk_) {
-        cut = give_up();
-        if (message.chunk_seq != 0) {
-            return cut;  // its beginning is lost
-        }
-        id_ = message.id;
-    }
-    text_ += piece;
-    ++next_chunk_;
-    if (piece.size() < message.text.size() || next_chunk_ == kMostChunks) {
-        id_ = 0;
-        next_chunk_ = 0;
-        return fit_to_print(std::exchange(text_, {}));
-    }
-    return cut;
 }
 
 }  // namespace limpet::mavlink

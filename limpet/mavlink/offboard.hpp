@@ -12,26 +12,9 @@
 #include "limpet/core/signals/setpoint.hpp"
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/messages.hpp"
+#include "limpet/mavlink/status_text.hpp"
 
 namespace limpet::mavlink {
-
-/// Texts of one sender, whole again where they came in chunks, and fit for a terminal: what is not
-/// printable ASCII becomes `?`, blanks at the end go.
-/// Source: common.xml, STATUSTEXT: an id of 0 is a text by itself; else chunks count from 0, and
-/// one that its field's NUL ends is the last.
-class TextJoiner {
-public:
-    /// @return a text that is complete; one whose rest never came when the next begins, with "..."
-    [[nodiscard]] std::optional<std::string> hear(const StatusText& message);
-
-private:
-    /// @return what has come so far of a text in chunks, if any
-    [[nodiscard]] std::optional<std::string> give_up();
-
-    std::string text_;
-    std::uint16_t id_ = 0;
-    int next_chunk_ = 0;
-};
 
 // Who flies. Time is injected: nothing here reads a clock.
 //
@@ -75,8 +58,11 @@ struct AutopilotReport {
     bool armed = false;
     bool offboard = false;  ///< its mode is OFFBOARD
     std::uint32_t custom_mode = 0;
-    std::uint8_t landed_state = 0;      ///< MAV_LANDED_STATE: 1 ground, 2 air
-    std::string text;                   ///< of its last STATUSTEXT
+    std::uint8_t landed_state = 0;  ///< MAV_LANDED_STATE: 1 ground, 2 air
+    std::string text;               ///< of its last STATUSTEXT
+    RecentWarnings warnings;        ///< since it was last armed
+    std::uint32_t unhealthy = 0;    ///< MAV_SYS_STATUS_SENSOR in use and not healthy, by its word
+    bool refused_rate = false;      ///< it does not send ODOMETRY on request
     std::uint16_t refused_command = 0;  ///< MAV_CMD that it denied last, 0: none
     std::uint8_t refused_result = 0;    ///< MAV_RESULT of it
     std::uint64_t texts = 0;            ///< so many so far
@@ -111,6 +97,8 @@ public:
     /// estimate_limit_s.
     [[nodiscard]] Estimate estimate(double time_s) const;
     [[nodiscard]] const AutopilotReport& report() const { return report_; }
+    /// Whether it still waits for what the autopilot is (AUTOPILOT_VERSION): a few seconds at most.
+    [[nodiscard]] bool asks_who() const;
     /// Whether poses of a tracker must not go to it yet: an origin that comes after them moves the
     /// position that they gave. Until it reports its origin, or a few seconds after it was given
     /// one; never again once it was false.

@@ -190,6 +190,17 @@ std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe) {
     return settings;
 }
 
+std::vector<mavlink::ExpectedParameter> expected_parameters(
+    const std::vector<Px4Setting>& settings) {
+    std::vector<mavlink::ExpectedParameter> expected;
+    expected.reserve(settings.size());
+    for (const Px4Setting& setting : settings) {
+        expected.push_back(
+            {.name = setting.name, .value = setting.value, .reason = setting.reason});
+    }
+    return expected;
+}
+
 Px4Fitted fitted(const std::vector<Px4Setting>& settings, const Px4Facts& known) {
     Px4Fitted result;
     for (const Px4Setting& setting : settings) {

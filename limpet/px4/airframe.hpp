@@ -8,6 +8,7 @@
 #include "limpet/autopilot/allocation.hpp"
 #include "limpet/autopilot/parameters.hpp"
 #include "limpet/mavlink/messages.hpp"
+#include "limpet/mavlink/parameter_check.hpp"
 #include "limpet/px4/facts.hpp"
 
 namespace limpet::px4 {
@@ -77,6 +78,10 @@ struct Px4Fitted {
 /// To a PX4 that was built.
 /// @throws InputError naming a parameter whose value is out of that PX4's range
 [[nodiscard]] Px4Fitted fitted(const std::vector<Px4Setting>& settings, const Px4Facts& known);
+
+/// What a PX4 is compared with before it is armed.
+[[nodiscard]] std::vector<mavlink::ExpectedParameter> expected_parameters(
+    const std::vector<Px4Setting>& settings);
 
 /// A parameter file for QGroundControl: tab-separated lines
 /// `vehicle component name value type`; each has its reason in a comment above it.

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "limpet/autopilot/external.hpp"
 #include "limpet/core/signals/pose_watch.hpp"
 #include "limpet/mavlink/hil.hpp"
 #include "limpet/mavlink/offboard.hpp"
+#include "limpet/mavlink/parameter_check.hpp"
 
 namespace limpet::px4 {
 
@@ -24,6 +26,10 @@ struct Px4Options {
     double aiding_limit_s = 0.5;
     bool only_px4 = false;  ///< fails where it is the stand-in, or does not report what it is
     std::function<void(const std::string& text)> on_text;  ///< each STATUSTEXT
+    /// As it should be set; compared before it is first armed.
+    std::vector<mavlink::ExpectedParameter> expected = {};
+    /// How it is set otherwise, once, before it is first armed; not called where nothing differs.
+    std::function<void(const std::vector<mavlink::ParameterDifference>&)> on_difference = {};
 };
 
 /// PX4, in simulation or on a board, in the place of the built-in autopilot: sensors and motors
@@ -46,6 +52,8 @@ public:
     [[nodiscard]] std::optional<autopilot::AutopilotIdentity> identity() const override;
 
     [[nodiscard]] const mavlink::HilCount& count() const { return hil_.count(); }
+    /// By its own account.
+    [[nodiscard]] bool armed() const { return offboard_.report().armed; }
 
 private:
     void hear(const mavlink::Frame& frame);
@@ -54,6 +62,7 @@ private:
     [[nodiscard]] Estimate heard_estimate(double time_s) const;
     void exchange(const Setpoint& setpoint);
     void look_who();
+    void compare_parameters();
     [[nodiscard]] bool in_step() const;
     [[nodiscard]] bool tracker_silent(double time_s) const;
     [[nodiscard]] bool awaits_origin() const;
@@ -66,6 +75,8 @@ private:
     Px4Options options_;
     mavlink::Hil hil_;
     mavlink::Offboard offboard_;
+    mavlink::ParameterCheck parameters_;
+    bool compared_ = false;
     mavlink::HilStatus status_ = mavlink::HilStatus::waiting;
     std::uint64_t clock_usec_ = 0;
     Readings readings_;  ///< as sent to it

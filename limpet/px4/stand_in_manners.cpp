@@ -71,7 +71,7 @@ bool set_points_come(const StandInParameters& parameters, const Situation& now) 
 }
 
 CommandResult refuse(Manners& manners, std::string_view text) {
-    manners.texts.say(text);
+    manners.texts.say(text, mavlink::MavSeverity::warning);
     return CommandResult::temporarily_rejected;
 }
 
@@ -128,7 +128,8 @@ void mind(const StandInParameters& parameters, Manners& manners, const Situation
     if (manners.mode == FlightMode::offboard && !set_points_come(parameters, now)) {
         manners.mode = FlightMode::hold;
         if (manners.armed()) {
-            manners.texts.say("Failsafe: offboard signal lost, holding");
+            manners.texts.say("Failsafe: offboard signal lost, holding",
+                              mavlink::MavSeverity::warning);
         }
     }
 }

@@ -57,13 +57,18 @@ using CommandResult = mavlink::MavResult::Value;
 
 /// What is announced in a step, for STATUSTEXT; literals.
 struct SpokenTexts {
+    struct Text {
+        std::string_view text;
+        mavlink::MavSeverity::Value severity = mavlink::MavSeverity::info;
+    };
     static constexpr std::size_t kMost = 8;
-    std::array<std::string_view, kMost> texts;
+    std::array<Text, kMost> texts;
     std::size_t count = 0;
 
-    void say(std::string_view text) {
+    void say(std::string_view text,
+             mavlink::MavSeverity::Value severity = mavlink::MavSeverity::info) {
         if (count < kMost) {
-            texts[count++] = text;
+            texts[count++] = {text, severity};
         }
     }
 };

@@ -45,8 +45,8 @@ bool tells_the_estimate(std::uint32_t id) {
 
 void send_texts(const SpokenTexts& spoken, mavlink::Link& link) {
     for (std::size_t i = 0; i < spoken.count; ++i) {
-        mavlink::StatusText message{.severity = mavlink::MavSeverity::info};
-        mavlink::set_text(message.text, spoken.texts[i]);
+        mavlink::StatusText message{.severity = spoken.texts[i].severity};
+        mavlink::set_text(message.text, spoken.texts[i].text);
         (void)link.send(message);
     }
 }

@@ -68,6 +68,10 @@ Px4Wires::Px4Wires(const Px4Addresses& addresses, double control_rate_Hz, bool f
     px4.hil.boot_limit =
         std::chrono::milliseconds(std::llround(1e3 * std::max(0.0, addresses.wait_s - waited_s)));
     px4.hil.stop = stop;
+    px4.hil.utc_start_us =
+        static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(
+                                       std::chrono::system_clock::now().time_since_epoch())
+                                       .count());
     px4.control_rate_Hz = control_rate_Hz;
     px4.flies = flies;
     px4.offboard.target_system = addresses.system;
@@ -75,6 +79,8 @@ Px4Wires::Px4Wires(const Px4Addresses& addresses, double control_rate_Hz, bool f
     px4.only_px4 = addresses.only_px4;
     px4.aiding_limit_s = addresses.aiding_limit_s;
     px4.on_text = watch.on_text;
+    px4.expected = addresses.expected;
+    px4.on_difference = watch.on_difference;
     autopilot_ =
         std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));
 }

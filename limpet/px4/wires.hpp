@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "limpet/mavlink/link.hpp"
 #include "limpet/px4/autopilot.hpp"
@@ -26,8 +27,9 @@ struct Px4Addresses {
 
     [[nodiscard]] bool serial() const { return hil.medium == wire::Medium::serial; }
 
-    bool only_px4 = false;        ///< the stand-in will not do
-    double aiding_limit_s = 0.5;  ///< Px4Options'
+    bool only_px4 = false;                                  ///< the stand-in will not do
+    double aiding_limit_s = 0.5;                            ///< Px4Options'
+    std::vector<mavlink::ExpectedParameter> expected = {};  ///< Px4Options'
 };
 
 /// What who opens the wires has to do with them; empty members do nothing.
@@ -38,6 +40,8 @@ struct Px4WireWatch {
     std::function<void(const std::string& where)> on_open = {};
     std::function<void(double waited_s)> on_wait = {};          ///< ten times a second
     std::function<void(const std::string& text)> on_text = {};  ///< each STATUSTEXT
+    /// Px4Options'
+    std::function<void(const std::vector<mavlink::ParameterDifference>&)> on_difference = {};
     std::string wait_key;  ///< for people: what to turn when nobody comes
 };
 

@@ -156,19 +156,17 @@ void RemoteGuidance::hear_command(const mavlink::Frame& frame,
     (void)wires_.sensors->send(ack, kNoWait);
 }
 
-void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
+void RemoteGuidance::hear_text(const std::string& text, double time_s,
                                guidance::PerchingMemory& guidance, guidance::EventList& events) {
     if (const auto reported = mavlink::told_outcome(text)) {
         end(reported->outcome, reported->reason);
-    } else if (const auto name = mavlink::event_name(text)) {
-        const std::string_view words = mavlink::text_of(text.text);
-        const std::size_t reason = std::min(words.size(), to_string(*name).size() + 2);
-        events.add(make_event(time_s, "guidance", *name, keep(words.substr(reason))));
-        if (*name == EventName::approach_started) {
+    } else if (const auto event = mavlink::told_event(text)) {
+        events.add(make_event(time_s, "guidance", event->name, keep(event->reason)));
+        if (event->name == EventName::approach_started) {
             guidance.attempt = ++approaches_;
         }
     } else {
-        last_words_ = mavlink::text_of(text.text);
+        last_words_ = text;
     }
 }
 
@@ -177,8 +175,10 @@ void RemoteGuidance::hear(const mavlink::Frame& frame, double time_s,
     companion_heard_ = true;
     if (const auto command = mavlink::decode<mavlink::CommandLong>(frame)) {
         hear_command(frame, *command);
-    } else if (const auto text = mavlink::decode<mavlink::StatusText>(frame)) {
-        hear_text(*text, time_s, guidance, events);
+    } else if (const auto piece = mavlink::decode<mavlink::StatusText>(frame)) {
+        if (const auto text = joiner_.hear(*piece)) {
+            hear_text(*text, time_s, guidance, events);
+        }
     } else if (const auto value = mavlink::decode<mavlink::NamedValueFloat>(frame)) {
         const auto state = mavlink::guidance_state(*value);
         const bool known = state && *state <= static_cast<int>(guidance::PerchingState::finished);
@@ -188,6 +188,9 @@ void RemoteGuidance::hear(const mavlink::Frame& frame, double time_s,
         }
     } else if (const auto heartbeat = mavlink::decode<mavlink::Heartbeat>(frame)) {
         if (heartbeat->system_status == mavlink::MavState::poweroff) {
+            if (const auto text = joiner_.give_up()) {
+                hear_text(*text, time_s, guidance, events);
+            }
             end(Outcome::timed_out, last_words_);
         }
     }

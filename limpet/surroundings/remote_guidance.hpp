@@ -12,6 +12,7 @@
 #include "limpet/devices/natnet_source.hpp"
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/mechanism.hpp"
+#include "limpet/mavlink/status_text.hpp"
 #include "limpet/sensors/registry.hpp"
 #include "limpet/simulation/outside.hpp"
 
@@ -69,8 +70,8 @@ private:
     void hear(const mavlink::Frame& frame, double time_s, guidance::PerchingMemory& guidance,
               guidance::EventList& events);
     void hear_command(const mavlink::Frame& frame, const mavlink::CommandLong& command);
-    void hear_text(const mavlink::StatusText& text, double time_s,
-                   guidance::PerchingMemory& guidance, guidance::EventList& events);
+    void hear_text(const std::string& text, double time_s, guidance::PerchingMemory& guidance,
+                   guidance::EventList& events);
     void end(Outcome outcome, std::string_view reason);
     [[nodiscard]] std::string_view keep(std::string_view text);
     [[nodiscard]] std::uint64_t clock_us() const;
@@ -90,6 +91,7 @@ private:
     std::optional<guidance::Ending> ending_;
     std::deque<std::string> texts_;  ///< addresses stay
     /// Of a companion that ends without an outcome: "handed back: reason".
+    mavlink::TextJoiner joiner_;
     std::string last_words_ = "the companion ended its mission";
     OutsideCount count_;
 };

@@ -170,11 +170,12 @@ private:
                     (void)sensors_.send(ack);
                 }
             }
-        } else if (const auto text = mavlink::decode<mavlink::StatusText>(frame)) {
-            if (const auto told = mavlink::told_outcome(*text)) {
+        } else if (const auto piece = mavlink::decode<mavlink::StatusText>(frame)) {
+            const std::string text = texts_.hear(*piece).value_or("");
+            if (const auto told = mavlink::told_outcome(text)) {
                 sensors.outcome = to_string(told->outcome);
-            } else if (const auto event = mavlink::event_name(*text)) {
-                sensors.events.push_back(*event);
+            } else if (const auto event = mavlink::told_event(text)) {
+                sensors.events.push_back(event->name);
             }
         } else if (const auto beat = mavlink::decode<mavlink::Heartbeat>(frame)) {
             sensors.over = sensors.over || beat->system_status == mavlink::MavState::poweroff;
@@ -237,6 +238,7 @@ private:
 
     mavlink::Link autopilot_;
     mavlink::Link sensors_;
+    mavlink::TextJoiner texts_;
     Vector3 drifted_m_ = Vector3::Zero();
 };
 

@@ -285,6 +285,42 @@ TEST(Offboard, AnOldPoseIsNotValidAndASilentAutopilotIsNoticed) {
     EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::silent);
 }
 
+/// The cause is in the text before the last, and in the health of its parts.
+TEST(Offboard, WhatKeepsItFromArmingIsNamedWithItsCause) {
+    Peer peer;
+    peer.engage();
+    const auto say = [&peer](const char* words, std::uint8_t severity) {
+        StatusText text{.severity = severity};
+        set_text(text.text, words);
+        peer.wire.say(text);
+    };
+    say("Preflight Fail: Baro Sensor 0 missing", MavSeverity::error);
+    say("Arming denied: Resolve system health failures first", MavSeverity::error);
+    say("[logger] a file", MavSeverity::info);
+    const std::uint32_t used =
+        MavSysStatusSensor::absolute_pressure | MavSysStatusSensor::sensor_3d_gyro;
+    peer.wire.say(SysStatus{.onboard_control_sensors_enabled = used,
+                            .onboard_control_sensors_health = MavSysStatusSensor::sensor_3d_gyro});
+    peer.run(0.1);
+    EXPECT_EQ(peer.offboard.obstacle(peer.time_s),
+              "not armed yet; not healthy: barometer; it reported \"Preflight Fail: Baro Sensor 0 "
+              "missing\", \"Arming denied: Resolve system health failures first\"");
+}
+
+TEST(Offboard, OneThatDoesNotSendThePoseOnRequestIsNamed) {
+    Peer peer;
+    peer.tells_pose = false;
+    peer.run(0.5);
+    EXPECT_EQ(peer.offboard.obstacle(peer.time_s), "the autopilot sends no fresh pose");
+    CommandAck ack;
+    ack.command = MavCmd::set_message_interval;
+    ack.result = MavResult::unsupported;
+    peer.wire.say(ack);
+    peer.run(0.1);
+    EXPECT_EQ(peer.offboard.obstacle(peer.time_s),
+              "the autopilot does not send ODOMETRY on request");
+}
+
 TEST(Offboard, FramesOfOthersAreLeftAlone) {
     Peer peer;
     peer.wire.autopilot.system = 9;

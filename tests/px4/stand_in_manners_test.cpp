@@ -134,7 +134,7 @@ TEST_F(StandInManners, TextsFitAStatusTextAndDoNotPileUp) {
     }
     EXPECT_EQ(manners.texts.count, SpokenTexts::kMost);
     for (std::size_t i = 0; i < manners.texts.count; ++i) {
-        EXPECT_LE(manners.texts.texts[i].size(), 50U);
+        EXPECT_LE(manners.texts.texts[i].text.size(), 50U);
     }
 }
 

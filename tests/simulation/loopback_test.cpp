@@ -14,6 +14,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/simulation/bring_up.hpp"
+#include "limpet/simulation/px4_setup.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -171,6 +172,20 @@ TEST(Loopback, ATrackerThatDriftsIsNotFollowed) {
             EXPECT_EQ(drifts.true_end, silent.true_end);
         }
     }
+}
+
+/// One that would not arm again on the wall is named before it takes off.
+TEST(Loopback, AnotherParameterThanExpectedIsNamedBeforeItIsArmed) {
+    const auto model = model_of("hover");
+    px4::StandInOptions options = Loopback::perching();
+    options.parameters.FD_FAIL_P = 60;
+    const auto settings = px4::px4_settings(px4_airframe(*model->scenario));
+    Loopback loopback(*model, options, true, px4::Px4Options().aiding_limit_s,
+                      px4::expected_parameters(settings));
+    EXPECT_NO_THROW((void)bring_up(*model, {.autopilot = &loopback.autopilot()}, BringUp()));
+    ASSERT_THAT(loopback.differences, testing::SizeIs(1));
+    EXPECT_THAT(loopback.differences[0], testing::StartsWith("FD_FAIL_P 60 instead of 0 ("));
+    EXPECT_FALSE(loopback.armed_when_compared);
 }
 
 /// PX4 flies on without poses for five seconds, by its own account well.

@@ -82,6 +82,12 @@ struct RemoteGuidanceOverMavlink : testing::Test {
         }
         return std::nullopt;
     }
+    void say(const std::string& text) {
+        splitter.split(mavlink::MavSeverity::info, text, [this](const mavlink::StatusText& piece) {
+            (void)companion.link.send(piece);
+        });
+    }
+    mavlink::TextSplitter splitter;
     void command(float pump, float valve, std::uint8_t component = mavlink::kMechanismComponent) {
         mavlink::CommandLong message =
             mavlink::actuator_command({.pump_on = pump > 0, .valve_open = valve > 0}, 1, 0);
@@ -153,17 +159,18 @@ TEST_F(RemoteGuidanceOverMavlink, WhatTheCompanionTellsBecomesEventsStateAndOutc
     EXPECT_NE(remote.obstacle(), "");
     meet();
     const Event approach = make_event(9.0, "guidance", EventName::approach_started, "aligned");
-    (void)companion.link.send(mavlink::event_text(approach));
+    say(mavlink::event_text(approach));
     (void)companion.link.send(
         mavlink::guidance_state(static_cast<int>(guidance::PerchingState::approaching), 0));
     (void)companion.link.send(mavlink::guidance_state(200, 0));  // none of ours
-    (void)companion.link.send(mavlink::outcome_text(Outcome::released, "backed off"));
+    const std::string reason = "backed off, and this is said in more than one text of MAVLink";
+    say(mavlink::outcome_text(Outcome::released, reason));
     EXPECT_TRUE(until([&] { return guidance.ending.has_value(); }));
     EXPECT_EQ(told, std::vector{EventName::approach_started});
     EXPECT_EQ(guidance.state, guidance::PerchingState::approaching);
     EXPECT_EQ(guidance.attempt, 1);
     EXPECT_EQ(guidance.ending->outcome, Outcome::released);
-    EXPECT_EQ(guidance.ending->reason, "backed off");
+    EXPECT_EQ(guidance.ending->reason, reason);
     EXPECT_EQ(remote.obstacle(), "");
 }
 
@@ -180,11 +187,29 @@ TEST_F(RemoteGuidanceOverMavlink, ACompanionThatHandsBackEndsItWithItsLastWords)
     EXPECT_EQ(guidance.ending->reason, "handed back: pose stale, in the air");
 }
 
+TEST_F(RemoteGuidanceOverMavlink, AnOutcomeWhoseLastPieceIsLostIsStillOne) {
+    meet();
+    int pieces = 0;
+    splitter.split(mavlink::MavSeverity::info,
+                   mavlink::outcome_text(Outcome::release_aborted, std::string(60, 'x')),
+                   [&](const mavlink::StatusText& piece) {
+                       if (++pieces == 1) {
+                           (void)companion.link.send(piece);
+                       }
+                   });
+    EXPECT_EQ(pieces, 2);
+    mavlink::Heartbeat last;
+    last.system_status = mavlink::MavState::poweroff;
+    (void)companion.link.send(last);
+    EXPECT_TRUE(until([&] { return guidance.ending.has_value(); }));
+    EXPECT_EQ(guidance.ending->outcome, Outcome::release_aborted);
+    EXPECT_EQ(guidance.ending->reason, std::string(50 - 26, 'x') + "...");
+}
+
 TEST_F(RemoteGuidanceOverMavlink, AFloodOfEventsIsTakenInPiecesNoneLost) {
     meet();
     for (int i = 0; i < 50; ++i) {
-        (void)companion.link.send(
-            mavlink::event_text(make_event(1.0, "guidance", EventName::impact)));
+        say(mavlink::event_text(make_event(1.0, "guidance", EventName::impact)));
     }
     EXPECT_TRUE(until([&] { return told.size() == 50; }));
 }

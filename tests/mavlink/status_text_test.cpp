@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/status_text.hpp"
+
 #include <gtest/gtest.h>
 
-#include "limpet/mavlink/offboard.hpp"
+#include <optional>
+#include <vector>
 
 namespace limpet::mavlink {
 namespace {
@@ -46,6 +49,45 @@ TEST(TextJoiner, AFloodOfChunksEnds) {
         longest = std::max(longest, text ? text->size() : 0);
     }
     EXPECT_EQ(longest, 1000U);
+}
+
+TEST(TextJoiner, WhatHasComeIsGivenUpOnce) {
+    TextJoiner joiner;
+    EXPECT_EQ(joiner.give_up(), std::nullopt);
+    EXPECT_EQ(joiner.hear(piece(kFull, 3, 0)), std::nullopt);
+    EXPECT_EQ(joiner.give_up(), kFull + "...");
+    EXPECT_EQ(joiner.give_up(), std::nullopt);
+}
+
+TEST(RecentWarnings, TheLastThreeDifferentOnes) {
+    RecentWarnings warnings;
+    warnings.add(MavSeverity::info, "Takeoff detected");
+    EXPECT_TRUE(warnings.texts().empty());
+    warnings.add(MavSeverity::error, "Preflight Fail: barometer missing");
+    warnings.add(MavSeverity::warning, "Arming denied");
+    warnings.add(MavSeverity::error, "Preflight Fail: barometer missing");
+    EXPECT_EQ(warnings.texts(),
+              (std::vector<std::string>{"Arming denied", "Preflight Fail: barometer missing"}));
+    warnings.add(MavSeverity::error, "a");
+    warnings.add(MavSeverity::error, "b");
+    EXPECT_EQ(warnings.texts(),
+              (std::vector<std::string>{"Preflight Fail: barometer missing", "a", "b"}));
+}
+
+TEST(TextSplitter, TextsOfAnyLengthComeThroughWhole) {
+    TextSplitter splitter;
+    TextJoiner joiner;
+    for (std::size_t length = 0; length < 260; ++length) {
+        const std::string text(length, 'x');
+        std::vector<std::string> whole;
+        splitter.split(6, text, [&](const StatusText& message) {
+            EXPECT_EQ(message.severity, 6);
+            if (auto joined = joiner.hear(message)) {
+                whole.push_back(*joined);
+            }
+        });
+        EXPECT_EQ(whole, std::vector{text});
+    }
 }
 
 TEST(TextJoiner, NoEscapeCodeComesThrough) {
