@@ -56,13 +56,11 @@ class Loopback {
 public:
     /// @param sets_origin  guidance gives it one; false: somebody else may
     explicit Loopback(const FlightModel& model, px4::StandInOptions options = perching(),
-                      bool sets_origin = true,
-                      double aiding_limit_s = px4::Px4Options().aiding_limit_s)
+                      bool sets_origin = true)
         : hil_(listen(wire::Medium::tcp)),
           offboard_(listen(wire::Medium::udp)),
           options_(std::move(options)),
-          sets_origin_(sets_origin),
-          aiding_limit_s_(aiding_limit_s) {
+          sets_origin_(sets_origin) {
         options_.hil = hil_.transport().address();
         options_.onboard.port = 0;
         options_.onboard_peer = offboard_.transport().address();
@@ -105,7 +103,6 @@ private:
         px4.hil.answer_limit = 2000ms;
         px4.control_rate_Hz = model.control_rate_Hz;
         px4.offboard.sets_origin = sets_origin_;
-        px4.aiding_limit_s = aiding_limit_s_;
         px4.on_text = [this](const std::string& text) {
             last_text = text;
             texts.push_back(text);
@@ -117,7 +114,6 @@ private:
     mavlink::Link offboard_;
     px4::StandInOptions options_;
     bool sets_origin_;
-    double aiding_limit_s_;
     std::unique_ptr<StandInThread> stand_in_;
     std::optional<px4::Px4Autopilot> autopilot_;
 };

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <limits>
 
 #include "../support/files.hpp"
 #include "flown.hpp"
@@ -118,28 +117,6 @@ TEST(Loopback, AnEstimateElsewhereThanTheMotionCaptureIsNotArmed) {
                                       "motion capture that it is sent"));
     loopback.stand_in().end();
     EXPECT_FALSE(loopback.stand_in().stand_in().flight().manners.armed());
-}
-
-/// By GPS its origin is another one: metres from motion capture, which runs all the same, are no
-/// reason not to fly.
-TEST(Loopback, ByGpsAnEstimateElsewhereIsNoObstacle) {
-    const auto model = model_of("hover");
-    px4::StandInOptions thrown = Loopback::perching();
-    thrown.origin_throws_m = 3.0;
-    Loopback loopback(*model, thrown, false, std::numeric_limits<double>::infinity());
-    std::vector<std::string> obstacles;
-    BringUp options;
-    options.limit_s = 12.0;
-    options.on_obstacle = [&](const std::string& text) {
-        if (text == "the autopilot is not in OFFBOARD mode yet") {
-            (void)loopback.companion().send(mavlink::SetGpsGlobalOrigin{.target_system = 1});
-        }
-        obstacles.push_back(text);
-    };
-    EXPECT_NO_THROW((void)bring_up(*model, {.autopilot = &loopback.autopilot()}, options));
-    EXPECT_THAT(obstacles, Not(Contains(HasSubstr("from the motion capture"))));
-    loopback.stand_in().end();
-    EXPECT_EQ(loopback.stand_in().stand_in().flight().thrown_north_m, 3.0);
 }
 
 /// PX4 flies on without poses for five seconds, by its own account well.
