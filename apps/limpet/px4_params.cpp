@@ -139,11 +139,12 @@ OptionList options_of(Px4Options& options) {
              one_of({"sitl", "hitl", "flight"}, false)},
             {"--px4-version VERSION",
              [&options](const std::string& text) { options.version = kVersions.at(text); },
-             "of the PX4: 1.15 (default), 1.16 or main (of May 2026 or later, 1.18), which has\n"
-             "some parameters no more",
+             "of the PX4: 1.15 (default), 1.16, or main (of May 2026 or\n"
+             "later, 1.18), which has some parameters no more",
              one_of({"1.15", "1.16", "main"}, false)},
             {"--px4 BUILD", &options.build,
-             "a PX4 that was built: its folder; what it has no parameter for is left out",
+             "a PX4 that was built: its folder; what it has\n"
+             "no parameter for is left out",
              not_with("--px4-version")},
             {"--mocap", &options.mocap,
              "position by motion capture (default unless the\nscenario's EKF2_EV_CTRL is 0)"},

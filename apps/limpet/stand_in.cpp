@@ -15,6 +15,7 @@
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
+#include "limpet/simulation/px4_setup.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -52,8 +53,21 @@ void set(const std::vector<BoundParameter>& rows, const std::string& text) {
     row->value.set(*number);
 }
 
+/// As `limpet px4-params` sets a PX4: else a perched vehicle may not arm.
+void set_as_px4(const scenario::Scenario& scenario, px4::StandInParameters& parameters) {
+    px4::Px4Airframe airframe = simulation::px4_airframe(scenario);
+    airframe.autopilot = {};  // of the commander's alone: those of control are the scenario's
+    const std::vector<BoundParameter> rows = bind(px4::stand_in_table(), parameters);
+    for (const px4::Px4Setting& setting : px4_settings(airframe)) {
+        if (const BoundParameter* row = find_named(rows, setting.name)) {
+            row->value.set(setting.value);
+        }
+    }
+}
+
 void serve(const StandInOptions& options) {
-    autopilot::AutopilotModel model = simulation::autopilot_model(scenario_of(options.what));
+    const scenario::Scenario scenario = scenario_of(options.what);
+    autopilot::AutopilotModel model = simulation::autopilot_model(scenario);
     px4::StandInOptions stand_in;
     const px4::Px4Instance& instance = options.instance;
     stand_in.hil =
@@ -63,8 +77,7 @@ void serve(const StandInOptions& options) {
     stand_in.onboard_peer =
         address_of("--peer", options.peer, {wire::Medium::udp}, instance.offboard());
     stand_in.system = instance.system();
-    // as `limpet px4-params` has them: else a perched vehicle may not arm
-    stand_in.parameters.FD_FAIL_P = stand_in.parameters.FD_FAIL_R = 0;
+    set_as_px4(scenario, stand_in.parameters);
     for (const std::string& text : options.parameters) {
         set(wire_parameters(stand_in.parameters, model.parameters), text);
     }
@@ -104,7 +117,7 @@ OptionList options_of(StandInOptions& options) {
             {"--peer ADDRESS", &options.peer,
              "first peer of the onboard link (default\nudp:127.0.0.1:14540 + N)"},
             {"--param NAME=VALUE", &options.parameters,
-             "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given"}};
+             "a parameter, NAME=VALUE; otherwise as px4-params sets it"}};
 }
 
 }  // namespace

@@ -124,8 +124,8 @@ void take(const AutopilotParameters& p, EstimatorState& state, double& seen_s,
     apply(state, fusion.correction);
 }
 
-/// The same pose again, bit for bit, of a body that turns is a tracker that repeats itself; one at
-/// rest may be seen so where there is no noise.
+/// The same pose again, bit for bit, of a body that has turned since it first came is a tracker
+/// that repeats itself; one at rest may be seen so where there is no noise.
 bool repeats_itself(const EstimatorState& state, const PoseReading& pose) {
     const PoseReading& last = state.motion_capture;
     const bool turns = state.turned_rad.norm() > radians(0.1);
@@ -138,6 +138,9 @@ void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
     const PoseReading& pose = sample.value;
     if (sample.newer_than(state.motion_capture_s)) {
         state.motion_capture_frozen = repeats_itself(state, pose);
+        if (!same_pose(pose, state.motion_capture)) {
+            state.turned_rad.setZero();
+        }
     }
     const bool usable =
         pose.p_WB_m.allFinite() && pose.q_WB.coeffs().allFinite() && !state.motion_capture_frozen;

@@ -88,7 +88,8 @@ struct EstimatorState {
     double magnetometer_s = kNever;
     PoseReading motion_capture;  ///< the last one seen
     bool motion_capture_frozen = false;
-    Vector3 turned_rad = Vector3::Zero();  ///< by the gyros, in the last half second or so
+    Vector3 turned_rad = Vector3::Zero();  ///< by the gyros since this pose first came, in the last
+                                           ///< half second or so
     Aiding motion_capture_position;
     Aiding motion_capture_attitude;
     Aiding gps_position;

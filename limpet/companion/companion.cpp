@@ -282,7 +282,7 @@ void Companion::tell(double time_s) {
     }
 }
 
-void Companion::send_text(mavlink::MavSeverity::Value severity, const std::string& text) {
+void Companion::send_text(mavlink::MavSeverity::Value severity, std::string_view text) {
     splitter_.split(severity, text,
                     [this](const mavlink::StatusText& piece) { send_sensors(piece); });
 }
@@ -290,7 +290,7 @@ void Companion::send_text(mavlink::MavSeverity::Value severity, const std::strin
 void Companion::send_last_word() {
     if (result_.outcome) {
         send_text(mavlink::MavSeverity::info,
-                  mavlink::outcome_text(*result_.outcome, result_.reason));
+                  mavlink::outcome_text(*result_.outcome, result_.reason).view());
     } else {
         send_text(mavlink::MavSeverity::warning, "handed back: " + result_.reason);
     }
@@ -315,7 +315,7 @@ void Companion::report(const Event& event) {
     result_.events.push_back(event);
     write(event.time_s, [&](record::Recorder& to) { to.event(event); });
     if (wires_.sensors && !dry_run_) {
-        send_text(mavlink::MavSeverity::info, mavlink::event_text(event));
+        send_text(mavlink::MavSeverity::info, mavlink::event_text(event).view());
     }
     watch_.event(event);
 }

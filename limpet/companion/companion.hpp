@@ -92,7 +92,7 @@ private:
     void send_sensors(const Message& message) {
         (void)wires_.sensors->send(message, std::chrono::milliseconds(5));
     }
-    void send_text(mavlink::MavSeverity::Value severity, const std::string& text);
+    void send_text(mavlink::MavSeverity::Value severity, std::string_view text);
     void send_last_word();
     void record(double time_s);
     template <class Write>

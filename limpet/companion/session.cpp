@@ -20,8 +20,7 @@ std::string doubt_text(PoseDoubt doubt, double away_m) {
     switch (doubt) {
         case PoseDoubt::none:
         case PoseDoubt::repeats:
-        case PoseDoubt::another_body:
-        case PoseDoubt::drifts: return std::string(to_string(doubt));
+        case PoseDoubt::another_body: return std::string(to_string(doubt));
         case PoseDoubt::jumped:
         case PoseDoubt::moves_alone: return fmt::format("{} ({:.2f} m)", to_string(doubt), away_m);
     }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/mavlink/mission_report.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace limpet::mavlink {
@@ -23,9 +21,9 @@ Parts part(std::string_view text) {
 
 }  // namespace
 
-std::string event_text(const Event& event) {
-    return event.reason.empty() ? std::string(to_string(event.name))
-                                : fmt::format("{}{}{}", to_string(event.name), kAnd, event.reason);
+ReportText event_text(const Event& event) {
+    return event.reason.empty() ? ReportText(to_string(event.name))
+                                : ReportText(to_string(event.name), kAnd, event.reason);
 }
 
 std::optional<ToldEvent> told_event(std::string_view text) {
@@ -39,8 +37,8 @@ std::optional<ToldEvent> told_event(std::string_view text) {
     return std::nullopt;
 }
 
-std::string outcome_text(Outcome outcome, std::string_view reason) {
-    return fmt::format("{}{}{}{}{}", kOutcome, kAnd, to_string(outcome), kAnd, reason);
+ReportText outcome_text(Outcome outcome, std::string_view reason) {
+    return ReportText(kOutcome, kAnd, to_string(outcome), kAnd, reason);
 }
 
 std::optional<ToldOutcome> told_outcome(std::string_view text) {

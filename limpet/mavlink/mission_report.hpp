@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "limpet/core/signals/event.hpp"
@@ -15,8 +17,27 @@
 /// The last heartbeats carry MavState::poweroff (mechanism.hpp).
 namespace limpet::mavlink {
 
+/// A text of a mission's report; what is longer is cut. Allocates nothing.
+class ReportText {
+public:
+    template <class... Pieces>
+    explicit ReportText(const Pieces&... pieces) {
+        (add(pieces), ...);
+    }
+    [[nodiscard]] std::string_view view() const { return {letters_.data(), size_}; }
+
+private:
+    void add(std::string_view piece) {
+        const std::size_t fits = std::min(piece.size(), letters_.size() - size_);
+        std::copy_n(piece.begin(), fits, letters_.begin() + static_cast<std::ptrdiff_t>(size_));
+        size_ += fits;
+    }
+    std::array<char, 400> letters_ = {};
+    std::size_t size_ = 0;
+};
+
 /// "perched: reason".
-[[nodiscard]] std::string event_text(const Event& event);
+[[nodiscard]] ReportText event_text(const Event& event);
 struct ToldEvent {
     EventName name = EventName::aborted;
     std::string_view reason;  ///< lives as long as the text
@@ -29,7 +50,7 @@ struct ToldOutcome {
     std::string_view reason;  ///< lives as long as the text
 };
 /// "outcome: released: reason".
-[[nodiscard]] std::string outcome_text(Outcome outcome, std::string_view reason);
+[[nodiscard]] ReportText outcome_text(Outcome outcome, std::string_view reason);
 [[nodiscard]] std::optional<ToldOutcome> told_outcome(std::string_view text);
 
 /// Name of the NAMED_VALUE_FLOAT with the number of guidance's state, 0 the first.

@@ -225,7 +225,6 @@ Estimate Px4Autopilot::heard_estimate(double time_s) const {
 RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint,
                                    double time_s) {
     readings_ = readings;
-    watch_.feel(readings.imu);
     readings_.motion_capture =
         awaits_origin() ? Sample<PoseReading>()
                         : watch_.trusted(readings.motion_capture, heard_estimate(time_s), mover());

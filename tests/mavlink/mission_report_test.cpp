@@ -13,26 +13,34 @@ TEST(MissionReport, EveryEventIsToldAndUnderstood) {
     const std::string reason(120, 'r');
     for (int i = 0; i <= static_cast<int>(EventName::aborted); ++i) {
         const auto name = static_cast<EventName>(i);
-        const auto bare = told_event(event_text(make_event(1.0, "guidance", name)));
+        const ReportText words = event_text(make_event(1.0, "guidance", name));
+        const auto bare = told_event(words.view());
         ASSERT_TRUE(bare);
         EXPECT_EQ(bare->name, name);
         EXPECT_EQ(bare->reason, "");
-        const std::string text = event_text(make_event(1.0, "guidance", name, reason));
-        ASSERT_TRUE(told_event(text));
-        EXPECT_EQ(told_event(text)->name, name);
-        EXPECT_EQ(told_event(text)->reason, reason);
+        const ReportText text = event_text(make_event(1.0, "guidance", name, reason));
+        ASSERT_TRUE(told_event(text.view()));
+        EXPECT_EQ(told_event(text.view())->name, name);
+        EXPECT_EQ(told_event(text.view())->reason, reason);
     }
 }
 
 TEST(MissionReport, TheOutcomeIsToldWithItsReason) {
     const std::string reason = "a reason that is longer than one text of MAVLink: with all of it";
-    const std::string text = outcome_text(Outcome::released, reason);
-    EXPECT_EQ(text, "outcome: released: " + reason);
-    const auto told = told_outcome(text);
+    const ReportText text = outcome_text(Outcome::released, reason);
+    EXPECT_EQ(text.view(), "outcome: released: " + reason);
+    const auto told = told_outcome(text.view());
     ASSERT_TRUE(told);
     EXPECT_EQ(told->outcome, Outcome::released);
     EXPECT_EQ(told->reason, reason);
-    EXPECT_FALSE(told_event(text));
+    EXPECT_FALSE(told_event(text.view()));
+}
+
+TEST(MissionReport, WhatIsLongerThanAReportIsCut) {
+    const ReportText text = outcome_text(Outcome::released, std::string(900, 'x'));
+    EXPECT_EQ(text.view().size(), 400U);
+    ASSERT_TRUE(told_outcome(text.view()));
+    EXPECT_EQ(told_outcome(text.view())->outcome, Outcome::released);
 }
 
 TEST(MissionReport, OtherTextsAreNeither) {

@@ -295,7 +295,7 @@ TEST(Offboard, WhatKeepsItFromArmingIsNamedWithItsCause) {
         peer.wire.say(text);
     };
     say("Preflight Fail: Baro Sensor 0 missing", MavSeverity::error);
-    say("Arming denied: Resolve system health failures first", MavSeverity::error);
+    say("Arming denied: see the health report", MavSeverity::error);
     say("[logger] a file", MavSeverity::info);
     const std::uint32_t used =
         MavSysStatusSensor::absolute_pressure | MavSysStatusSensor::sensor_3d_gyro;
@@ -304,7 +304,7 @@ TEST(Offboard, WhatKeepsItFromArmingIsNamedWithItsCause) {
     peer.run(0.1);
     EXPECT_EQ(peer.offboard.obstacle(peer.time_s),
               "not armed yet; not healthy: barometer; it reported \"Preflight Fail: Baro Sensor 0 "
-              "missing\", \"Arming denied: Resolve system health failures first\"");
+              "missing\", \"Arming denied: see the health report\"");
 }
 
 TEST(Offboard, OneThatDoesNotSendThePoseOnRequestIsNamed) {

@@ -57,13 +57,11 @@ public:
     /// @param sets_origin  guidance gives it one; false: somebody else may
     explicit Loopback(const FlightModel& model, px4::StandInOptions options = perching(),
                       bool sets_origin = true,
-                      double aiding_limit_s = px4::Px4Options().aiding_limit_s,
                       std::vector<mavlink::ExpectedParameter> expected = {})
         : hil_(listen(wire::Medium::tcp)),
           offboard_(listen(wire::Medium::udp)),
           options_(std::move(options)),
           sets_origin_(sets_origin),
-          aiding_limit_s_(aiding_limit_s),
           expected_(std::move(expected)) {
         options_.hil = hil_.transport().address();
         options_.onboard.port = 0;
@@ -91,8 +89,8 @@ public:
     /// To speak to the stand-in as another companion.
     [[nodiscard]] mavlink::Link& companion() { return offboard_; }
 
-    std::string last_text;                 ///< STATUSTEXT
-    std::vector<std::string> texts;        ///< all of them
+    std::string last_text;           ///< STATUSTEXT
+    std::vector<std::string> texts;  ///< all of them
     std::vector<std::string> differences;  ///< of parameters
     bool armed_when_compared = false;
 
@@ -109,7 +107,6 @@ private:
         px4.hil.answer_limit = 2000ms;
         px4.control_rate_Hz = model.control_rate_Hz;
         px4.offboard.sets_origin = sets_origin_;
-        px4.aiding_limit_s = aiding_limit_s_;
         px4.expected = expected_;
         px4.on_difference = [this](const std::vector<mavlink::ParameterDifference>& found) {
             for (const mavlink::ParameterDifference& difference : found) {
@@ -128,7 +125,6 @@ private:
     mavlink::Link offboard_;
     px4::StandInOptions options_;
     bool sets_origin_;
-    double aiding_limit_s_;
     std::vector<mavlink::ExpectedParameter> expected_;
     std::unique_ptr<StandInThread> stand_in_;
     std::optional<px4::Px4Autopilot> autopilot_;

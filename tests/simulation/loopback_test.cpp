@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <limits>
 
 #include "../support/files.hpp"
 #include "flown.hpp"
@@ -121,28 +120,6 @@ TEST(Loopback, AnEstimateElsewhereThanTheMotionCaptureIsNotArmed) {
     EXPECT_FALSE(loopback.stand_in().stand_in().flight().manners.armed());
 }
 
-/// By GPS its origin is another one: metres from motion capture, which runs all the same, are no
-/// reason not to fly.
-TEST(Loopback, ByGpsAnEstimateElsewhereIsNoObstacle) {
-    const auto model = model_of("hover");
-    px4::StandInOptions thrown = Loopback::perching();
-    thrown.origin_throws_m = 3.0;
-    Loopback loopback(*model, thrown, false, std::numeric_limits<double>::infinity());
-    std::vector<std::string> obstacles;
-    BringUp options;
-    options.limit_s = 12.0;
-    options.on_obstacle = [&](const std::string& text) {
-        if (text == "the autopilot is not in OFFBOARD mode yet") {
-            (void)loopback.companion().send(mavlink::SetGpsGlobalOrigin{.target_system = 1});
-        }
-        obstacles.push_back(text);
-    };
-    EXPECT_NO_THROW((void)bring_up(*model, {.autopilot = &loopback.autopilot()}, options));
-    EXPECT_THAT(obstacles, Not(Contains(HasSubstr("from the motion capture"))));
-    loopback.stand_in().end();
-    EXPECT_EQ(loopback.stand_in().stand_in().flight().thrown_north_m, 3.0);
-}
-
 /// It stands at one place, bit for bit, before the flight and at rest, and has not frozen.
 TEST(Loopback, FliesByATrackerWithoutNoise) {
     const auto model = model_of("perch_concrete", {"sensors.mocap_position_noise_m=0",
@@ -154,31 +131,12 @@ TEST(Loopback, FliesByATrackerWithoutNoise) {
     EXPECT_EQ(names(behind), names(fly(model)));
 }
 
-/// A drift that begins in the air ends as a tracker that falls silent does: before the wall, on it.
-TEST(Loopback, ATrackerThatDriftsIsNotFollowed) {
-    const auto flown = [](const std::string& fault, const char* phase) {
-        const auto model = model_of("perch_concrete",
-                                    {"faults={" + fault + ", phase: " + phase + ", after_s: 0.3}"});
-        Loopback loopback(*model);
-        return fly_behind_wire(model, loopback);
-    };
-    for (const char* phase : {"approaching", "pitching_down", "resting"}) {
-        const FlightResult silent = flown("fault: mocap_lost", phase);
-        for (const char* drift : {"1", "-1"}) {
-            SCOPED_TRACE(std::string(phase) + " " + drift);
-            const FlightResult drifts =
-                flown(std::string("fault: mocap_drifts, size: ") + drift, phase);
-            EXPECT_EQ(drifts.outcome, silent.outcome) << drifts.reason;
-            EXPECT_EQ(drifts.true_end, silent.true_end);
-        }
-    }
-}
-
 /// One that would not arm again on the wall is named before it takes off.
 TEST(Loopback, AnotherParameterThanExpectedIsNamedBeforeItIsArmed) {
     const auto model = model_of("hover");
     px4::StandInOptions options = Loopback::perching();
     options.parameters.FD_FAIL_P = 60;
+    options.parameters.COM_DISARM_PRFLT = options.parameters.COM_DISARM_LAND = -1.0;
     const auto settings = px4::px4_settings(px4_airframe(*model->scenario));
     Loopback loopback(*model, options, true, px4::Px4Options().aiding_limit_s,
                       px4::expected_parameters(settings));

@@ -82,7 +82,7 @@ struct RemoteGuidanceOverMavlink : testing::Test {
         }
         return std::nullopt;
     }
-    void say(const std::string& text) {
+    void say(std::string_view text) {
         splitter.split(mavlink::MavSeverity::info, text, [this](const mavlink::StatusText& piece) {
             (void)companion.link.send(piece);
         });
@@ -159,12 +159,12 @@ TEST_F(RemoteGuidanceOverMavlink, WhatTheCompanionTellsBecomesEventsStateAndOutc
     EXPECT_NE(remote.obstacle(), "");
     meet();
     const Event approach = make_event(9.0, "guidance", EventName::approach_started, "aligned");
-    say(mavlink::event_text(approach));
+    say(mavlink::event_text(approach).view());
     (void)companion.link.send(
         mavlink::guidance_state(static_cast<int>(guidance::PerchingState::approaching), 0));
     (void)companion.link.send(mavlink::guidance_state(200, 0));  // none of ours
     const std::string reason = "backed off, and this is said in more than one text of MAVLink";
-    say(mavlink::outcome_text(Outcome::released, reason));
+    say(mavlink::outcome_text(Outcome::released, reason).view());
     EXPECT_TRUE(until([&] { return guidance.ending.has_value(); }));
     EXPECT_EQ(told, std::vector{EventName::approach_started});
     EXPECT_EQ(guidance.state, guidance::PerchingState::approaching);
@@ -191,7 +191,7 @@ TEST_F(RemoteGuidanceOverMavlink, AnOutcomeWhoseLastPieceIsLostIsStillOne) {
     meet();
     int pieces = 0;
     splitter.split(mavlink::MavSeverity::info,
-                   mavlink::outcome_text(Outcome::release_aborted, std::string(60, 'x')),
+                   mavlink::outcome_text(Outcome::release_aborted, std::string(60, 'x')).view(),
                    [&](const mavlink::StatusText& piece) {
                        if (++pieces == 1) {
                            (void)companion.link.send(piece);
@@ -209,7 +209,7 @@ TEST_F(RemoteGuidanceOverMavlink, AnOutcomeWhoseLastPieceIsLostIsStillOne) {
 TEST_F(RemoteGuidanceOverMavlink, AFloodOfEventsIsTakenInPiecesNoneLost) {
     meet();
     for (int i = 0; i < 50; ++i) {
-        say(mavlink::event_text(make_event(1.0, "guidance", EventName::impact)));
+        say(mavlink::event_text(make_event(1.0, "guidance", EventName::impact)).view());
     }
     EXPECT_TRUE(until([&] { return told.size() == 50; }));
 }

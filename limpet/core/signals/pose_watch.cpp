@@ -42,7 +42,6 @@ std::string_view to_string(PoseDoubt doubt) {
         case PoseDoubt::repeats: return "its pose repeats itself while the vehicle turns";
         case PoseDoubt::another_body: return "its attitude is not the autopilot's: another body";
         case PoseDoubt::jumped: return "its pose jumped";
-        case PoseDoubt::drifts: return "its pose drifts: the IMU feels nothing of it";
         case PoseDoubt::moves_alone:
             return "its pose moves while motors are off and the gyros are still";
     }
@@ -90,19 +89,6 @@ bool PoseWatch::jumped_back(const Sample<PoseReading>& pose, const Estimate& est
         jump_W_m_ += step_m;
     }
     return jump_W_m_.norm() < limits_.jump_m || (estimate.valid && !jump(pose, estimate));
-}
-
-/// A single pose that is off shows in two: where it is the latest, and 0.15 s behind it.
-bool PoseWatch::drifts(const Sample<PoseReading>& pose, bool flies) {
-    constexpr int kPoses = 3;
-    if (seen_.ever() && same_pose(pose.value, seen_.value)) {
-        drift_.forget();  // that it stands is another's to say
-        return drifts_;
-    }
-    const auto unfelt_m_s = drift_.unfelt(pose);
-    const bool unfelt = flies && unfelt_m_s && unfelt_m_s->norm() > limits_.drift_m_s;
-    unfelt_poses_ = unfelt ? unfelt_poses_ + 1 : 0;
-    return drifts_ || unfelt_poses_ >= kPoses;
 }
 
 bool PoseWatch::moves_alone(const Sample<PoseReading>& pose, const Estimate& estimate,
@@ -161,8 +147,8 @@ const Sample<PoseReading>& PoseWatch::trusted(const Sample<PoseReading>& poses,
         flies && trusted_.ever() &&
         is_another_body(estimate.q_WB, poses.value.q_WB, poses.time_s - trusted_.time_s);
     away_m_ = 0.0;
-    const bool by_hand = mover == Mover::hand && estimate.time_s == turned_s_;
     if (jumped_) {
+        const bool by_hand = mover == Mover::hand && estimate.time_s == turned_s_;
         jumped_ = !by_hand && !jumped_back(poses, estimate);
         if (!jumped_) {
             stood_W_m_ = poses.value.p_WB_m;
@@ -173,18 +159,11 @@ const Sample<PoseReading>& PoseWatch::trusted(const Sample<PoseReading>& poses,
         jumped_ = found.has_value();
         jump_W_m_ = found.value_or(Vector3::Zero());
     }
-    if (jumped_ || frozen_ || other) {
-        drift_.forget();
-        unfelt_poses_ = 0;
-    } else {
-        drifts_ = !by_hand && drifts(poses, flies);
-    }
     alone_ = !jumped_ && mover != Mover::rotors && moves_alone(poses, estimate, mover);
     away_m_ = jumped_ ? jump_W_m_.norm() : alone_ ? away_m_ : 0.0;
     doubt_ = frozen_   ? PoseDoubt::repeats
              : other   ? PoseDoubt::another_body
              : jumped_ ? PoseDoubt::jumped
-             : drifts_ ? PoseDoubt::drifts
              : alone_  ? PoseDoubt::moves_alone
                        : PoseDoubt::none;
     seen_ = poses;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string_view>
 
-#include "limpet/core/signals/drift_watch.hpp"
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/readings.hpp"
 
@@ -27,7 +26,6 @@ enum class PoseDoubt {
     repeats,       ///< the same pose again while the body turns
     another_body,  ///< it lies otherwise than the gyros say
     jumped,        ///< it is elsewhere than the autopilot's position and velocity say, at once
-    drifts,        ///< its velocity changes, and the IMU does not feel it
     moves_alone,   ///< it moves while motors are off and the gyros are still
 };
 inline constexpr std::size_t kPoseDoubts = static_cast<std::size_t>(PoseDoubt::moves_alone) + 1;
@@ -42,29 +40,23 @@ enum class Mover {
 };
 
 struct PoseWatchLimits {
-    double jump_m = 0.2;     ///< between two poses, against the autopilot's velocity
-    double drift_m_s = 0.3;  ///< change of a pose's velocity over 0.3 s that the IMU did not feel
-    double still_m = 0.1;    ///< so far a pose may move while motors and gyros are still
+    double jump_m = 0.2;        ///< between two poses, against the autopilot's velocity
+    double still_m = 0.1;       ///< so far a pose may move while motors and gyros are still
     double still_rad_s = 0.05;  ///< gyros below this for a second are still
 };
 
 /// Keeps from an autopilot that is not ours those poses of a tracker that are not this body's now.
 /// With motors on: one that repeats itself while the autopilot's attitude turns by a degree, one of
-/// another body, and one that jumps, seen at its first frame and until it jumps back; where the IMU
-/// is felt, also one whose velocity changes otherwise, seen within 0.1 s and until the vehicle is
-/// moved by hand. With motors off: one that moves while the gyros are still, until it is back or
-/// the vehicle is moved by hand. A jump is measured against position and velocity of the autopilot,
-/// which never saw it; its estimate follows a drift at once, and is no measure of it. Where it
-/// withholds all, the tracker is as good as silent. Without a valid estimate nothing new is held
-/// against a pose.
+/// another body, and one that jumps, seen at its first frame and until it jumps back. With motors
+/// off: one that moves while the gyros are still, until it is back or the vehicle is moved by hand.
+/// A jump is measured against position and velocity of the autopilot, which never saw it; a drift
+/// that its estimate follows is found while motors are off alone. Where it withholds all, the
+/// tracker is as good as silent. Without a valid estimate nothing new is held against a pose.
 class PoseWatch {
 public:
     PoseWatch() = default;
     explicit PoseWatch(const PoseWatchLimits& limits) : limits_(limits) {}
 
-    /// The body's own IMU, before the poses of the time after it. Without it no drift is seen while
-    /// rotors turn.
-    void feel(const Sample<ImuReading>& imu) { drift_.feel(imu); }
     /// @param poses     as they come; the same sample may come again
     /// @param estimate  the autopilot's, stamped by the clock of the poses
     /// @return the last pose that may be passed on
@@ -81,7 +73,6 @@ private:
     [[nodiscard]] std::optional<Vector3> jump(const Sample<PoseReading>& pose,
                                               const Estimate& estimate) const;
     [[nodiscard]] bool jumped_back(const Sample<PoseReading>& pose, const Estimate& estimate);
-    [[nodiscard]] bool drifts(const Sample<PoseReading>& pose, bool flies);
     [[nodiscard]] bool moves_alone(const Sample<PoseReading>& pose, const Estimate& estimate,
                                    Mover mover);
     void trust(const Sample<PoseReading>& pose, const Estimate& estimate, Mover mover);
@@ -95,12 +86,9 @@ private:
     std::optional<Vector3> stood_W_m_;  ///< where it was when something last moved it
     double turned_s_ = -1e9;            ///< when the gyros last showed that it moves
     double away_m_ = 0.0;
-    DriftWatch drift_;
-    int unfelt_poses_ = 0;  ///< one after the other
     PoseDoubt doubt_ = PoseDoubt::none;
     bool frozen_ = false;
     bool jumped_ = false;
-    bool drifts_ = false;
     bool alone_ = false;
 };
 
