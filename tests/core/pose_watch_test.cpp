@@ -148,34 +148,6 @@ TEST(PoseWatch, WithholdsWhatCreepsAwayFromTheAutopilot) {
     EXPECT_EQ(w.watch.doubt(), PoseDoubt::jumped);
 }
 
-/// Its estimate follows at once; the IMU feels nothing. One pose that is off is no drift.
-TEST(PoseWatch, WithholdsADriftThatBeginsInTheAirWhereTheImuIsFelt) {
-    for (const bool felt : {true, false}) {
-        for (const double drift_m_s : {1.0, -1.0, 0.2}) {
-            Watched w;
-            const auto sees = [&](double off_m) {
-                if (felt) {
-                    w.watch.feel({w.time_s, {.specific_force_B_m_s2 = {0.0, 0.0, -kGravity_m_s2}}});
-                }
-                w.estimate.p_WB_m = moved(w.pose(), off_m).p_WB_m;
-                const bool seen = w.sees(moved(w.pose(), off_m));
-                w.goes_on();
-                return seen;
-            };
-            for (int k = 0; k < 200; ++k) {
-                ASSERT_TRUE(sees(k == 100 ? 0.1 : 0.0)) << k;
-            }
-            double seen_m = 0.0;
-            for (double off_m = 0.0; std::abs(off_m) < 2.0; off_m += drift_m_s * kTick_s) {
-                seen_m = sees(off_m) ? std::abs(off_m) : seen_m;
-            }
-            const bool fast = std::abs(drift_m_s) > 0.3;
-            EXPECT_EQ(w.watch.doubt(), felt && fast ? PoseDoubt::drifts : PoseDoubt::none);
-            EXPECT_NEAR(seen_m, felt && fast ? 0.065 : 2.0, 0.02) << drift_m_s;
-        }
-    }
-}
-
 TEST(PoseWatch, TakesAFrameThatLiesElsewhereAndAnAutopilotThatComesToIt) {
     Watched w;
     for (int k = 0; k < 200; ++k, w.goes_on()) {

@@ -138,8 +138,7 @@ TEST(Loopback, AnotherParameterThanExpectedIsNamedBeforeItIsArmed) {
     options.parameters.FD_FAIL_P = 60;
     options.parameters.COM_DISARM_PRFLT = options.parameters.COM_DISARM_LAND = -1.0;
     const auto settings = px4::px4_settings(px4_airframe(*model->scenario));
-    Loopback loopback(*model, options, true, px4::Px4Options().aiding_limit_s,
-                      px4::expected_parameters(settings));
+    Loopback loopback(*model, options, true, px4::expected_parameters(settings));
     EXPECT_NO_THROW((void)bring_up(*model, {.autopilot = &loopback.autopilot()}, BringUp()));
     ASSERT_THAT(loopback.differences, testing::SizeIs(1));
     EXPECT_THAT(loopback.differences[0], testing::StartsWith("FD_FAIL_P 60 instead of 0 ("));
