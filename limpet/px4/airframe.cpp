@@ -121,6 +121,24 @@ void add_part(const char* part, const Px4Airframe& airframe, Settings& settings)
     }
 }
 
+/// In lockstep each HIL_SENSOR is answered, or PX4 stops: its logger, a lockstep component, waits
+/// for an attitude a sample, and so for as many integrals (IMU_INTEG_RATE: 250 in simulation), and
+/// its motors for as many rates (IMU_GYRO_RATEMAX: 400). Its start script sets the first one after
+/// the airframe. Source: PX4 v1.15, px4-rc.simulator, logger.cpp, VehicleAngularVelocity.cpp
+void add_imu_rate(const Px4Airframe& airframe, Settings& settings) {
+    constexpr double kIntegralsInSimulation_Hz = 250.0;
+    const double rate_Hz = airframe.imu_rate_Hz;
+    if (rate_Hz > kIntegralsInSimulation_Hz) {
+        add(settings, "IMU_INTEG_RATE", find_px4_fact("IMU_INTEG_RATE")->maximum,
+            fmt::format("an integral for each of {:g} samples a second, in lockstep", rate_Hz),
+            true);
+    }
+    if (const Px4Fact* most = find_px4_fact("IMU_GYRO_RATEMAX"); rate_Hz > most->default_value) {
+        add(settings, "IMU_GYRO_RATEMAX", most->maximum,
+            fmt::format("motors for each of {:g} samples a second, in lockstep", rate_Hz));
+    }
+}
+
 }  // namespace
 
 int px4_airframe_id(std::string_view vehicle) {
@@ -176,6 +194,9 @@ std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe) {
     add_part("offboard", airframe, settings);
     if (airframe.target != Px4Target::flight) {
         add_part("simulation", airframe, settings);
+    }
+    if (airframe.target == Px4Target::sitl) {
+        add_imu_rate(airframe, settings);
     }
     if (airframe.target == Px4Target::hitl) {
         add_part("simulation_on_a_board", airframe, settings);

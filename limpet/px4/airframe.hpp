@@ -32,7 +32,8 @@ struct Px4Airframe {
     RotorList<autopilot::RotorGeometry> rotors;
     double battery_cells = 6.0;
     double battery_capacity_Ah = 4.0;
-    bool perches = true;  ///< has a cup
+    bool perches = true;         ///< has a cup
+    double imu_rate_Hz = 250.0;  ///< of HIL_SENSOR
     autopilot::AutopilotParameters autopilot;
     Px4Target target = Px4Target::sitl;
     Px4Pose pose = Px4Pose::motion_capture;

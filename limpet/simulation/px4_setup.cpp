@@ -17,6 +17,7 @@ px4::Px4Airframe px4_airframe(const scenario::Scenario& scenario, std::optional<
     airframe.battery_capacity_Ah = vehicle.battery.capacity_Ah;
     airframe.perches = vehicle.has_cup;
     airframe.autopilot = scenario.autopilot;
+    airframe.imu_rate_Hz = scenario.sensors.imu_rate_Hz;
     airframe.pose =
         scenario.autopilot.EKF2_EV_CTRL != 0 ? px4::Px4Pose::motion_capture : px4::Px4Pose::gps;
     return airframe;
