@@ -36,7 +36,7 @@ set +u  # Gazebo's own script does not care
 . /usr/share/gazebo/setup.sh
 set -u
 plugins=build/bullseye
-export GAZEBO_IP=127.0.0.1 GAZEBO_MODEL_DATABASE_URI='' ALSOFT_DRIVERS=null
+export GAZEBO_IP=127.0.0.1 IGN_IP=127.0.0.1 GAZEBO_MODEL_DATABASE_URI='' ALSOFT_DRIVERS=null
 export GAZEBO_PLUGIN_PATH=$PWD/$plugins:$GAZEBO_PLUGIN_PATH
 export GAZEBO_RESOURCE_PATH=${world%/*}:$GAZEBO_RESOURCE_PATH  # materials are next to the world
 port=$(free_port $((12000 + RANDOM % 8000))) || { say "limpet: no free port for Gazebo's master"; exit 1; }

@@ -15,6 +15,7 @@
 #include "limpet/companion/run.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/live/live_flight.hpp"
+#include "limpet/px4/airframe.hpp"
 #include "live_view.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
@@ -138,8 +139,11 @@ companion::CompanionResult fly(const CompanionOptions& options,
 ExitCode companion(const CompanionOptions& options, const Given& given) {
     (void)expected_outcome(options.expect);  // before any work
     only_with(given, !options.no_record, {"--live"}, "a recording, not with --no-record");
-    const companion::CompanionConfig config =
+    companion::CompanionConfig config =
         companion::load_companion(options.config, options.overrides);
+    if (config.task.perch) {
+        config.expected = px4::expected_parameters(px4::px4_needs());
+    }
     check_speed(options, config);
     Terminal terminal(Terminal::Voice::normal);
     introduce(options, config, terminal);

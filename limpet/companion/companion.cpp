@@ -30,7 +30,8 @@ mavlink::OffboardOptions options_of(const CompanionConfig& config) {
             .silence_limit_s = config.limits.silence_limit_s,
             .asks_for_mode = config.asks_for_mode,
             .hears_texts = config.hears_texts,
-            .sets_origin = config.sets_origin};
+            .sets_origin = config.sets_origin,
+            .expected = config.expected};
 }
 
 /// Dry, the vehicle is carried: an autopilot that obeys stands in for the real one.
@@ -325,6 +326,14 @@ void Companion::say_changes(double time_s) {
     if (offboard_.report().texts != shown_texts_) {
         shown_texts_ = offboard_.report().texts;
         watch_.line(time_s, fmt::format("the autopilot says: {}", offboard_.report().text));
+    }
+    if (!dry_run_ && !compared_ && offboard_.compared(time_s)) {
+        compared_ = true;
+        for (const mavlink::ParameterDifference& difference : offboard_.differences(time_s)) {
+            if (difference.value) {  // one that it does not have is another version's
+                watch_.line(time_s, fmt::format("the autopilot has {}", text_of(difference)));
+            }
+        }
     }
     if (pose_watch_.doubt() != shown_doubt_) {
         shown_doubt_ = pose_watch_.doubt();

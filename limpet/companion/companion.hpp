@@ -124,6 +124,7 @@ private:
     double reported_s_ = -1e9;  ///< to the sensors' wire
     Readings recorded_;
     double recorded_estimate_s_ = 0.0;
+    bool compared_ = false;  ///< its parameters, for people
     std::uint64_t shown_texts_ = 0;
     PoseDoubt shown_doubt_ = PoseDoubt::none;
     bool shown_deaf_ = false;  ///< that the mechanism does not answer

@@ -9,6 +9,7 @@
 #include "limpet/companion/parameters.hpp"
 #include "limpet/devices/mocap_axes.hpp"
 #include "limpet/guidance/perching.hpp"
+#include "limpet/mavlink/parameter_check.hpp"
 #include "limpet/scenario/sections.hpp"
 #include "limpet/wire/address.hpp"
 
@@ -47,6 +48,8 @@ struct CompanionConfig {
     bool asks_for_mode = false;
     bool hears_texts = false;  ///< beats as a ground station, whose loss PX4 then does not notice
     bool sets_origin = true;   ///< gives the local origin a place on earth
+    /// Parameters that the autopilot should have so: by who starts it, not of the file.
+    std::vector<mavlink::ExpectedParameter> expected = {};
     std::optional<wire::TransportAddress> sensors;  ///< nothing: neither needed nor named
 
     PoseSource pose_source = PoseSource::natnet;

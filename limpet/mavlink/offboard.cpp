@@ -63,7 +63,8 @@ std::string_view command_name(std::uint16_t command) {
 
 }  // namespace
 
-Offboard::Offboard(const OffboardOptions& options) : options_(options) {}
+Offboard::Offboard(OffboardOptions options)
+    : options_(std::move(options)), parameters_(options_.expected) {}
 
 void Offboard::hear(const Frame& frame, double time_s) {
     if (frame.system != options_.target_system || frame.component != kAutopilotComponent) {
@@ -108,6 +109,7 @@ void Offboard::hear(const Frame& frame, double time_s) {
         if (text_of(value->param_id) == kAirframe && value->param_type == MavParamType::int32) {
             report_.airframe = static_cast<int>(parameter_value(*value));
         }
+        parameters_.hear(*value);
     } else if (const auto ack = decode<CommandAck>(frame)) {
         if (addressed_to(self_, *ack)) {  // a ground station's commands are answered too
             hear_command_ack(*ack);
@@ -215,7 +217,7 @@ void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
                          static_cast<float>(kMainModeOffboard));
         }
     } else if (now == OffboardState::engaged && setpoint.armed != report_.armed) {
-        if (awaits_origin(time_s)) {
+        if (awaits_origin(time_s) || (setpoint.armed && !compared(time_s))) {
             return;  // armed, it would be given none
         }
         if (again(sent_command_s_, options_.retry_s, time_s)) {
@@ -265,9 +267,10 @@ void Offboard::request_rate(Link& link) {
     }
 }
 
-bool Offboard::asks_who() const {
+bool Offboard::compared(double time_s) const {
     constexpr int kWorthAWait = 3;
-    return !report_.version && who_requests_ < kWorthAWait;
+    return options_.expected.empty() ||
+           (parameters_.done(time_s) && (report_.version || who_requests_ >= kWorthAWait));
 }
 
 /// For the record: a flight does not wait for it, but for the first requests.
@@ -308,6 +311,7 @@ void Offboard::speak_up(Link& link, double time_s) {
     const bool received = now != OffboardState::silent && now != OffboardState::taken_away;
     if (received) {
         give_origin(link, time_s);
+        parameters_.update(link, options_.target_system, time_s);
     }
     if (received && again(sent_request_s_, 1.0, time_s)) {
         request_rate(link);
@@ -366,7 +370,10 @@ std::string Offboard::obstacle(double time_s) const {
             return with_reason(options_.asks_for_mode ? "the autopilot is not in OFFBOARD mode yet"
                                                       : "waits for the mode OFFBOARD");
         case OffboardState::taken_away: return with_reason("another mode was chosen");
-        case OffboardState::engaged: return report_.armed ? "" : with_reason("not armed yet");
+        case OffboardState::engaged:
+            return report_.armed      ? ""
+                   : compared(time_s) ? with_reason("not armed yet")
+                                      : "its parameters are being read";
     }
     throw InternalError("offboard state out of range");
 }

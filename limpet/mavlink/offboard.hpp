@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "limpet/core/enum_names.hpp"
 #include "limpet/core/signals/estimate.hpp"
@@ -12,6 +13,7 @@
 #include "limpet/core/signals/setpoint.hpp"
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/messages.hpp"
+#include "limpet/mavlink/parameter_check.hpp"
 #include "limpet/mavlink/status_text.hpp"
 
 namespace limpet::mavlink {
@@ -51,6 +53,8 @@ struct OffboardOptions {
     /// it and unless it reports that it has them: without, PX4's hold and landing fly off to (0,
     /// 0). Not where it has GPS, whose origin is another. Source: px4.md "Motion capture"
     bool sets_origin = true;
+    /// As it should be set: compared with what it reports before it is armed.
+    std::vector<ExpectedParameter> expected = {};
 };
 
 /// What the autopilot reported last.
@@ -78,7 +82,7 @@ struct AutopilotReport {
 /// px4.md "Offboard" and "Perched"; PX4 v1.15
 class Offboard {
 public:
-    explicit Offboard(const OffboardOptions& options);
+    explicit Offboard(OffboardOptions options);
 
     /// A frame from the autopilot; others' are left alone.
     void hear(const Frame& frame, double time_s);
@@ -97,8 +101,13 @@ public:
     /// estimate_limit_s.
     [[nodiscard]] Estimate estimate(double time_s) const;
     [[nodiscard]] const AutopilotReport& report() const { return report_; }
-    /// Whether it still waits for what the autopilot is (AUTOPILOT_VERSION): a few seconds at most.
-    [[nodiscard]] bool asks_who() const;
+    /// Whether its parameters have been read, as far as it reports them, and what it is: before
+    /// that it is not armed, for a few seconds at most.
+    [[nodiscard]] bool compared(double time_s) const;
+    /// Once compared(): where they differ from options.expected.
+    [[nodiscard]] std::vector<ParameterDifference> differences(double time_s) const {
+        return parameters_.differences(time_s);
+    }
     /// Whether poses of a tracker must not go to it yet: an origin that comes after them moves the
     /// position that they gave. Until it reports its origin, or a few seconds after it was given
     /// one; never again once it was false.
@@ -126,6 +135,7 @@ private:
     Sender self_;  ///< whom answers to our commands are for
     AutopilotReport report_;
     TextJoiner texts_;
+    ParameterCheck parameters_;
     Estimate estimate_;
     double estimate_s_ = -1.0;   ///< < 0: never reported
     double heartbeat_s_ = -1.0;  ///< < 0: never received

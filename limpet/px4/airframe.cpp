@@ -211,6 +211,13 @@ std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe) {
     return settings;
 }
 
+std::vector<Px4Setting> px4_needs() {
+    Settings settings;
+    add_part("perching", {}, settings);
+    add_part("offboard", {}, settings);
+    return settings;
+}
+
 std::vector<mavlink::ExpectedParameter> expected_parameters(
     const std::vector<Px4Setting>& settings) {
     std::vector<mavlink::ExpectedParameter> expected;

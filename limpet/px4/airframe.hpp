@@ -80,6 +80,10 @@ struct Px4Fitted {
 /// @throws InputError naming a parameter whose value is out of that PX4's range
 [[nodiscard]] Px4Fitted fitted(const std::vector<Px4Setting>& settings, const Px4Facts& known);
 
+/// What guidance needs of any vehicle's PX4 as long as it perches on walls: of its failure
+/// detector, its arming and its offboard control.
+[[nodiscard]] std::vector<Px4Setting> px4_needs();
+
 /// What a PX4 is compared with before it is armed.
 [[nodiscard]] std::vector<mavlink::ExpectedParameter> expected_parameters(
     const std::vector<Px4Setting>& settings);

@@ -56,18 +56,12 @@ Px4Autopilot::Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Optio
       offboard_link_(offboard),
       options_(std::move(options)),
       hil_(hil, options_.hil),
-      offboard_(options_.offboard),
-      parameters_(options_.flies ? options_.expected : std::vector<mavlink::ExpectedParameter>()),
-      compared_(!options_.flies || options_.expected.empty()) {}
+      offboard_(options_.offboard) {}
 
 void Px4Autopilot::hear(const mavlink::Frame& frame) {
     offboard_.hear(frame, clock_s());
     if (const auto odometry = mavlink::decode<mavlink::Odometry>(frame)) {
         odometry_usec_ = odometry->time_usec;
-    } else if (const auto value = mavlink::decode<mavlink::ParamValue>(frame)) {
-        if (frame.system == options_.offboard.target_system) {
-            parameters_.hear(*value);
-        }
     }
     if (offboard_.report().texts != texts_) {
         texts_ = offboard_.report().texts;
@@ -117,8 +111,7 @@ Estimate Px4Autopilot::estimate(double time_s) {
     if (in_step()) {
         estimate.age_s = std::max(0.0, clock_s() - 1e-6 * static_cast<double>(odometry_usec_));
     }
-    estimate.valid =
-        estimate.valid && compared_ && !tracker_silent(time_s) && !awaits_origin() && !elsewhere();
+    estimate.valid = estimate.valid && !tracker_silent(time_s) && !awaits_origin() && !elsewhere();
     return estimate;
 }
 
@@ -155,18 +148,14 @@ bool Px4Autopilot::speaks_version_1() const {
     return on_hil || on_offboard;
 }
 
-/// Once it is there. The built-in autopilot behind PX4's wire has no other parameters than its own,
-/// and those of its estimator mean another filter.
-void Px4Autopilot::compare_parameters() {
-    if (compared_ || offboard_.state(clock_s()) == OffboardState::silent) {
-        return;
-    }
-    parameters_.update(offboard_link_, options_.offboard.target_system, clock_s());
-    if (!parameters_.done(clock_s()) || offboard_.asks_who()) {
+/// The built-in autopilot behind PX4's wire has no other parameters than its own, and those of its
+/// estimator mean another filter.
+void Px4Autopilot::report_differences() {
+    if (compared_ || !options_.flies || !offboard_.compared(clock_s())) {
         return;
     }
     compared_ = true;
-    std::vector<mavlink::ParameterDifference> found = parameters_.differences(clock_s());
+    std::vector<mavlink::ParameterDifference> found = offboard_.differences(clock_s());
     const auto& version = offboard_.report().version;
     if (version && is_stand_in(*version)) {
         std::erase_if(found, [](const mavlink::ParameterDifference& difference) {
@@ -186,8 +175,8 @@ void Px4Autopilot::exchange(const Setpoint& setpoint) {
         if (apart) {
             offboard_link_.cork();
         }
-        compare_parameters();
-        if (!compared_ || awaits_origin() || elsewhere()) {
+        report_differences();
+        if (awaits_origin() || elsewhere()) {
             offboard_.attend(offboard_link_, clock_s());
         } else {
             offboard_.update(offboard_link_, setpoint, clock_s());
@@ -303,9 +292,6 @@ std::string Px4Autopilot::obstacle() const {
         return {};
     }
     const Estimate estimate = offboard_.estimate(clock_s());
-    if (!compared_ && estimate.valid) {
-        return "its parameters are being read";
-    }
     if (awaits_origin() && estimate.valid) {
         return "the autopilot's origin has no latitude and longitude yet";
     }

@@ -10,7 +10,6 @@
 #include "limpet/core/signals/pose_watch.hpp"
 #include "limpet/mavlink/hil.hpp"
 #include "limpet/mavlink/offboard.hpp"
-#include "limpet/mavlink/parameter_check.hpp"
 
 namespace limpet::px4 {
 
@@ -26,9 +25,8 @@ struct Px4Options {
     double aiding_limit_s = 0.5;
     bool only_px4 = false;  ///< fails where it is the stand-in, or does not report what it is
     std::function<void(const std::string& text)> on_text;  ///< each STATUSTEXT
-    /// As it should be set; compared before it is first armed.
-    std::vector<mavlink::ExpectedParameter> expected = {};
-    /// How it is set otherwise, once, before it is first armed; not called where nothing differs.
+    /// How it is set otherwise than offboard.expected says, once, before it is first armed; not
+    /// called where nothing differs.
     std::function<void(const std::vector<mavlink::ParameterDifference>&)> on_difference = {};
 };
 
@@ -62,7 +60,7 @@ private:
     [[nodiscard]] Estimate heard_estimate(double time_s) const;
     void exchange(const Setpoint& setpoint);
     void look_who();
-    void compare_parameters();
+    void report_differences();
     [[nodiscard]] bool in_step() const;
     [[nodiscard]] bool tracker_silent(double time_s) const;
     [[nodiscard]] bool awaits_origin() const;
@@ -75,7 +73,6 @@ private:
     Px4Options options_;
     mavlink::Hil hil_;
     mavlink::Offboard offboard_;
-    mavlink::ParameterCheck parameters_;
     bool compared_ = false;
     mavlink::HilStatus status_ = mavlink::HilStatus::waiting;
     std::uint64_t clock_usec_ = 0;

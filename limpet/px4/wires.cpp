@@ -75,11 +75,11 @@ Px4Wires::Px4Wires(const Px4Addresses& addresses, double control_rate_Hz, bool f
     px4.control_rate_Hz = control_rate_Hz;
     px4.flies = flies;
     px4.offboard.target_system = addresses.system;
+    px4.offboard.expected = addresses.expected;
     px4.offboard.sets_origin = addresses.sets_origin;
     px4.only_px4 = addresses.only_px4;
     px4.aiding_limit_s = addresses.aiding_limit_s;
     px4.on_text = watch.on_text;
-    px4.expected = addresses.expected;
     px4.on_difference = watch.on_difference;
     autopilot_ =
         std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));

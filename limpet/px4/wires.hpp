@@ -29,7 +29,7 @@ struct Px4Addresses {
 
     bool only_px4 = false;                                  ///< the stand-in will not do
     double aiding_limit_s = 0.5;                            ///< Px4Options'
-    std::vector<mavlink::ExpectedParameter> expected = {};  ///< Px4Options'
+    std::vector<mavlink::ExpectedParameter> expected = {};  ///< OffboardOptions'
 };
 
 /// What who opens the wires has to do with them; empty members do nothing.

@@ -68,6 +68,21 @@ TEST(Companion, SendsNoPoseBeforeTheAutopilotHasItsOrigin) {
     EXPECT_EQ(r.stage.autopilot.origins, given);
 }
 
+/// One that would not arm again on the wall is named while it still stands.
+TEST(Companion, NamesAParameterThatIsOtherwiseBeforeItArms) {
+    Rehearsal r({}, false, {},
+                {{"FD_FAIL_P", 0.0, "it is armed at any pitch"}, {"COM_SPOOLUP_TIME", 0.0}});
+    r.stage.parameters = {{"FD_FAIL_P", 60.0}, {"COM_SPOOLUP_TIME", 0.0}};
+    const std::string line =
+        "the autopilot has FD_FAIL_P 60 instead of 0 (it is armed at any pitch)";
+    for (int k = 0; k < 20 * 50 && !r.said(line); ++k) {
+        r.run(0.05);
+        EXPECT_TRUE(r.stage.autopilot.arms == 0 || r.said(line)) << "armed before it was compared";
+    }
+    EXPECT_TRUE(r.said(line)) << testing::PrintToString(r.lines);
+    EXPECT_FALSE(r.said("COM_SPOOLUP_TIME"));
+}
+
 TEST(Companion, NamesWhatIsMissingAndGivesUpInTime) {
     Rehearsal r({"limits.wait_limit_s=10"});
     r.stage.puppet.force_works = false;

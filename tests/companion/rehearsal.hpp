@@ -24,10 +24,12 @@ inline CompanionConfig rehearsal_config(const std::vector<std::string>& override
 /// A companion and its outside, ticked together by one injected clock.
 struct Rehearsal {
     explicit Rehearsal(const std::vector<std::string>& overrides = {}, bool dry_run = false,
-                       const std::filesystem::path& recording = {})
+                       const std::filesystem::path& recording = {},
+                       std::vector<mavlink::ExpectedParameter> expected = {})
         : config(rehearsal_config(overrides)),
           wires(open_wires(config)),
           stage(wires.autopilot->transport().address(), wires.sensors->transport().address()) {
+        config.expected = std::move(expected);
         if (!recording.empty()) {
             recorder.emplace(recording, recording_info(config));
         }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/mechanism.hpp"
 #include "limpet/mavlink/mission_report.hpp"
+#include "limpet/mavlink/status_text.hpp"
 #include "limpet/mavlink/translate.hpp"
 #include "tests/guidance/puppet.hpp"
 
@@ -70,7 +72,8 @@ public:
     bool mechanism_answers = true;
     bool obeys_mode = true;
     bool obeys_arming = true;
-    bool has_origin = true;  ///< and tells it when it is asked
+    std::map<std::string, double> parameters;  ///< that it reports
+    bool has_origin = true;                    ///< and tells it when it is asked
     Vector3 motion_capture_off_m = Vector3::Zero();
     double motion_capture_turned_rad = 0.0;
     Vector3 estimate_drift_m_s = Vector3::Zero();  ///< of tracker and estimate, not of the vehicle
@@ -135,6 +138,14 @@ private:
             ++autopilot.poses;
         } else if (mavlink::decode<mavlink::SetGpsGlobalOrigin>(frame)) {
             ++autopilot.origins;
+        } else if (const auto asked = mavlink::decode<mavlink::ParamRequestRead>(frame)) {
+            const std::string name(mavlink::text_of(asked->param_id));
+            if (const auto has = parameters.find(name); has != parameters.end()) {
+                mavlink::ParamValue value{.param_value = static_cast<float>(has->second),
+                                          .param_type = mavlink::MavParamType::real32};
+                value.param_id = asked->param_id;
+                (void)autopilot_.send(value);
+            }
         } else if (mavlink::decode<mavlink::Heartbeat>(frame)) {
             ++autopilot.heartbeats;
         }

@@ -303,6 +303,29 @@ std::string refusal(const Px4Airframe& airframe) {
     return "";
 }
 
+/// In lockstep each HIL_SENSOR is answered, or PX4 stops.
+TEST(Px4Airframe, HasAnIntegralAndAMotorCommandForEachSampleOfTheImu) {
+    Px4Airframe airframe = perching_uav();
+    EXPECT_FALSE(value_of(airframe, "IMU_INTEG_RATE")) << "PX4's own start script has 250 Hz";
+    airframe.imu_rate_Hz = 400.0;
+    EXPECT_EQ(value_of(airframe, "IMU_INTEG_RATE"), 1000.0);
+    EXPECT_FALSE(value_of(airframe, "IMU_GYRO_RATEMAX"));
+    airframe.imu_rate_Hz = 1000.0;
+    EXPECT_EQ(value_of(airframe, "IMU_GYRO_RATEMAX"), 2000.0);
+    for (const Px4Setting& setting : px4_settings(airframe)) {
+        EXPECT_TRUE(setting.name != "IMU_INTEG_RATE" || setting.fixed)
+            << "that script comes after the airframe";
+    }
+    airframe.target = Px4Target::flight;
+    EXPECT_FALSE(value_of(airframe, "IMU_INTEG_RATE"));
+}
+
+TEST(Px4Airframe, WhatGuidanceNeedsIsPartOfWhatIsSet) {
+    for (const mavlink::ExpectedParameter& need : expected_parameters(px4_needs())) {
+        EXPECT_EQ(value_of(perching_uav(), need.name), need.value);
+    }
+}
+
 TEST(Px4Airframe, RefusesWhatPx4WouldNotTake) {
     Px4Airframe airframe = perching_uav();
     airframe.autopilot.MPC_THR_HOVER = 0.9;

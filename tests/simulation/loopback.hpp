@@ -89,8 +89,8 @@ public:
     /// To speak to the stand-in as another companion.
     [[nodiscard]] mavlink::Link& companion() { return offboard_; }
 
-    std::string last_text;           ///< STATUSTEXT
-    std::vector<std::string> texts;  ///< all of them
+    std::string last_text;                 ///< STATUSTEXT
+    std::vector<std::string> texts;        ///< all of them
     std::vector<std::string> differences;  ///< of parameters
     bool armed_when_compared = false;
 
@@ -107,7 +107,7 @@ private:
         px4.hil.answer_limit = 2000ms;
         px4.control_rate_Hz = model.control_rate_Hz;
         px4.offboard.sets_origin = sets_origin_;
-        px4.expected = expected_;
+        px4.offboard.expected = expected_;
         px4.on_difference = [this](const std::vector<mavlink::ParameterDifference>& found) {
             for (const mavlink::ParameterDifference& difference : found) {
                 differences.push_back(text_of(difference));

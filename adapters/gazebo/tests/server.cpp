@@ -45,6 +45,7 @@ void set_environment() {
     const std::string master = "http://127.0.0.1:" + std::to_string(free_port());
     ::setenv("GAZEBO_MASTER_URI", master.c_str(), 1);
     ::setenv("GAZEBO_IP", "127.0.0.1", 1);
+    ::setenv("IGN_IP", "127.0.0.1", 1);  // else it says that it found no other address
     ::setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
     ::setenv("ALSOFT_DRIVERS", "null", 1);  // it has no sound: no warnings about it
 }
