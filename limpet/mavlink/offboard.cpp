@@ -20,6 +20,12 @@ namespace {
 /// Space in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
 constexpr std::string_view kAirframe = "SYS_AUTOSTART";
+/// Of PX4's onboard link: half of what it sends.
+constexpr std::uint32_t kHighresImuId = 105;
+constexpr std::array<std::uint32_t, 5> kSaidByOdometry = {Attitude::kId, AttitudeQuaternion::kId,
+                                                          LocalPositionNed::kId,
+                                                          GlobalPositionInt::kId, kHighresImuId};
+constexpr float kStop = -1.0F;  // an interval: never
 constexpr float kCustomMode = MavModeFlag::custom_mode_enabled;
 
 /// Whether it is time again, and then remembers.
@@ -132,9 +138,9 @@ void Offboard::hear_command_ack(const CommandAck& ack) {
         // Every autopilot has what else is requested; one that is busy has not reported it.
         no_origin_ = no_origin_ || ack.result != MavResult::temporarily_rejected;
     } else if (ack.command == MavCmd::set_message_interval) {
-        report_.refused_rate = ack.result == MavResult::denied ||
-                               ack.result == MavResult::unsupported ||
-                               ack.result == MavResult::failed;
+        report_.refused_rate = estimate_s_ < 0.0 && (ack.result == MavResult::denied ||
+                                                     ack.result == MavResult::unsupported ||
+                                                     ack.result == MavResult::failed);
     } else {
         report_.refused_command = ack.command;
         report_.refused_result = ack.result;
@@ -273,6 +279,17 @@ bool Offboard::compared(double time_s) const {
            (parameters_.done(time_s) && (report_.version || who_requests_ >= kWorthAWait));
 }
 
+/// Once the estimate comes.
+void Offboard::stop_others(Link& link) {
+    constexpr int kTimes = 2;
+    if (options_.estimate_alone && estimate_s_ >= 0.0 && stop_requests_ < kTimes) {
+        ++stop_requests_;
+        for (const std::uint32_t id : kSaidByOdometry) {
+            send_command(link, MavCmd::set_message_interval, static_cast<float>(id), kStop);
+        }
+    }
+}
+
 /// For the record: a flight does not wait for it, but for the first requests.
 void Offboard::ask_who(Link& link) {
     constexpr int kTimes = 40;  // PX4 answers by a clock of its own, while simulated seconds fly by
@@ -315,6 +332,7 @@ void Offboard::speak_up(Link& link, double time_s) {
     }
     if (received && again(sent_request_s_, 1.0, time_s)) {
         request_rate(link);
+        stop_others(link);
         ask_who(link);
     }
 }

@@ -41,6 +41,7 @@ struct OffboardOptions {
     double set_point_rate_Hz = 50.0;  ///< PX4 gives up below 1 Hz (COM_OF_LOSS_T)
     double heartbeat_rate_Hz = 1.0;
     double estimate_rate_Hz = 100.0;  ///< requested; 0: its own
+    bool estimate_alone = false;      ///< of its state: streams that say the same are stopped
     double retry_s = 0.3;             ///< commands are repeated until it is so
     double warm_up_s = 1.0;           ///< set-points go so long before the mode is requested
     double estimate_limit_s = 0.25;   ///< a pose older than this is stale
@@ -127,6 +128,7 @@ private:
     void request(Link& link, const Setpoint& setpoint, double time_s);
     void give_origin(Link& link, double time_s);
     void request_rate(Link& link);
+    void stop_others(Link& link);
     void ask_who(Link& link);
     void send_command(Link& link, std::uint16_t command, float param1, float param2 = 0.0F,
                       float param3 = 0.0F);
@@ -155,6 +157,7 @@ private:
     int origin_requests_ = 0;
     bool no_origin_ = false;  ///< as it reported
     int rate_requests_ = 0;
+    int stop_requests_ = 0;
     int who_requests_ = 0;
     bool asked_armed_ = false;  ///< by the last command to arm or disarm
 };

@@ -75,6 +75,7 @@ Px4Wires::Px4Wires(const Px4Addresses& addresses, double control_rate_Hz, bool f
     px4.control_rate_Hz = control_rate_Hz;
     px4.flies = flies;
     px4.offboard.target_system = addresses.system;
+    px4.offboard.estimate_alone = !addresses.serial();
     px4.offboard.expected = addresses.expected;
     px4.offboard.sets_origin = addresses.sets_origin;
     px4.only_px4 = addresses.only_px4;

@@ -321,6 +321,29 @@ TEST(Offboard, OneThatDoesNotSendThePoseOnRequestIsNamed) {
               "the autopilot does not send ODOMETRY on request");
 }
 
+TEST(Offboard, StreamsThatSayTheSameAsThePoseAreStoppedOnceItComes) {
+    const auto stopped = [](const Peer& peer) {
+        std::size_t count = 0;
+        for (const CommandLong& each : peer.commands(MavCmd::set_message_interval)) {
+            EXPECT_TRUE(each.param2 > 0.0F || each.param1 != static_cast<float>(Odometry::kId));
+            count += each.param2 == -1.0F;
+        }
+        return count;
+    };
+    OffboardOptions options;
+    options.estimate_alone = true;
+    Peer peer(options);
+    peer.tells_pose = false;
+    peer.run(3.0);
+    EXPECT_EQ(stopped(peer), 0U);
+    peer.tells_pose = true;
+    peer.run(10.0);
+    EXPECT_EQ(stopped(peer), 10U) << "five, twice, since one may be lost";
+    Peer companion;
+    companion.run(10.0);
+    EXPECT_EQ(stopped(companion), 0U) << "on a vehicle others may use them";
+}
+
 TEST(Offboard, FramesOfOthersAreLeftAlone) {
     Peer peer;
     peer.wire.autopilot.system = 9;
