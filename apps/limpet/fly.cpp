@@ -8,6 +8,7 @@
 
 #include "flight_report.hpp"
 #include "ground_station.hpp"
+#include "limpet/assumptions/assumptions.hpp"
 #include "limpet/live/live_flight.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "live_view.hpp"
@@ -22,6 +23,7 @@ struct FlyOptions : FlightOptions {
     GroundStationOptions ground;
     LiveViewOptions live;
     bool no_record = false;
+    bool hangs_on = false;
 };
 
 OptionList options_of(FlyOptions& options) {
@@ -49,6 +51,9 @@ OptionList options_of(FlyOptions& options) {
           {"--quiet", &options.quiet, "print nothing but errors; no figures"},
           {"--csv", &options.csv, "write the recording as CSV as well"},
           {"--no-record", &options.no_record, "write nothing"},
+          {"--hangs-on", &options.hangs_on,
+           "fly it again with each assumed value 10 % less and more: which of\nthem change its "
+           "outcome (all: limpet assumptions)"},
           {"--no-figures", &options.no_figures, "write the recording only"}}});
 }
 
@@ -64,6 +69,7 @@ void check_together(const Given& given, const FlyOptions& options) {
     only_with(given, !options.no_record, {"--out", "--csv", "--record-wire", "--live"},
               "a recording, not with --no-record");
     only_with(given, options.live.wanted, {"--live-wait"}, "--live");
+    only_with(given, options.autopilot == "builtin", {"--hangs-on"}, "the built-in autopilot");
     only_with(given, !options.quiet, {"--live"}, "its address, not with --quiet");
 }
 
@@ -167,6 +173,14 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     if (company.live) {
         company.live->end(result);
         terminal.line("live", company.live->live().report());
+    }
+    if (options.hangs_on && !*stop) {
+        terminal.progress("flies each assumed value less and more");
+        const assumptions::Register all =
+            assumptions::weigh({to_yaml(scenario), scenario.name}, scenario.name,
+                               {.seeds = {scenario.seed}, .jobs = default_jobs(), .stop = stop});
+        terminal.progress("");
+        terminal.line(hangs_on_text(all));
     }
     return conclude(options, result, *stop, "ground",
                     company.ground ? company.ground->report() : "",

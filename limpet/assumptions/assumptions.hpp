@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/scenario/loader.hpp"
+#include "limpet/why/trial.hpp"
+
+namespace limpet::assumptions {
+
+/// A value that no measurement stands behind.
+struct Assumption {
+    std::string key;  ///< "suction.seal_wear_1_N"
+    std::string unit = {};
+    double value = 0.0;
+    std::string description = {};
+    std::string source = {};  ///< begins with "assumed"
+    std::string measurement =
+        {};  ///< what would settle it, in a user's terms; empty: nothing simple
+    std::vector<double> neighbours = {};  ///< below and above it, within its range
+};
+
+/// Those of a scenario: not zero, and not derived from others.
+/// @param share  by which a neighbour is off: 0.1 is 10 %
+[[nodiscard]] std::vector<Assumption> assumed(scenario::Scenario scenario, double share);
+
+/// What would settle a key; empty: nothing that a user measures.
+[[nodiscard]] std::string_view measurement_of(std::string_view key);
+
+/// How a figure moves with a value: mean of half the difference between its upper and its lower
+/// neighbour, over seeds, each against the same seed.
+struct Effect {
+    std::string_view metric;  ///< simulation::metric_table()
+    double base = 0.0;        ///< mean over the seeds, as it is
+    double change = 0.0;      ///< with `share` more of the value, in the metric's unit
+    double error = 0.0;       ///< standard error of it, by the scatter over seeds
+    std::size_t seeds = 0;    ///< of which all three flights have the figure
+};
+
+/// A flight that ends otherwise with one value turned.
+struct Flip {
+    std::uint64_t seed = 1;
+    double to = 0.0;      ///< the value
+    std::string outcome;  ///< "crashed (fallen)"
+};
+
+struct Weighed {
+    Assumption assumption;
+    std::vector<Effect> effects = {};
+    std::vector<Flip> flips = {};
+    std::size_t flights = 0;
+};
+
+struct Register {
+    std::string scenario;
+    double share = 0.1;
+    std::vector<std::uint64_t> seeds;
+    std::vector<std::string> outcomes = {};  ///< as it is, by seed
+    std::vector<Weighed> values = {};        ///< in the order of the sections
+    std::size_t flights = 0;
+    double wall_s = 0.0;
+};
+
+struct RegisterOptions {
+    double share = 0.1;
+    std::vector<std::uint64_t> seeds = {1};
+    int jobs = 1;
+    const std::atomic<bool>* stop = nullptr;
+};
+
+/// Flies each seed as it is, and with each assumed value at both neighbours. The same for any
+/// number of jobs.
+/// @throws InputError when the scenario cannot be flown; Interrupted
+[[nodiscard]] Register weigh(const scenario::ScenarioText& text, const std::string& name,
+                             const RegisterOptions& options);
+
+/// The values with the largest change of a figure beyond twice its error, largest first.
+/// @param most  so many at most
+[[nodiscard]] std::vector<const Weighed*> that_move(const Register& all, std::string_view metric,
+                                                    std::size_t most);
+
+/// For people: what flips the outcome, then the five that move each figure most, with what would
+/// settle them.
+[[nodiscard]] std::string register_text(const Register& all);
+/// Of one flight: "this outcome hangs on: ..." with a line a value, or on none.
+[[nodiscard]] std::string hangs_on_text(const Register& all);
+/// One JSON object: every value with all its effects.
+[[nodiscard]] std::string register_json(const Register& all);
+
+}  // namespace limpet::assumptions

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "limpet/assumptions/assumptions.hpp"
+
+namespace limpet::assumptions {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostShown = 5;
+/// Figures that pages and README speak of.
+constexpr std::array<std::string_view, 7> kFigures = {
+    "impact_speed_m_s", "cup_press_max_N", "time_to_land_pressure_s", "perched_pitch_deg",
+    "cup_margin_min_N", "release_s",       "pitch_swing_deg"};
+
+const Effect& effect_of(const Weighed& weighed, std::string_view metric) {
+    return *std::find_if(weighed.effects.begin(), weighed.effects.end(),
+                         [metric](const Effect& each) { return each.metric == metric; });
+}
+
+std::string flip_text(const Weighed& weighed) {
+    std::map<std::string, std::size_t> ends;
+    for (const Flip& flip : weighed.flips) {
+        ++ends[fmt::format("{:g}: {}", flip.to, flip.outcome)];
+    }
+    std::string text;
+    for (const auto& [end, count] : ends) {
+        text += fmt::format("{}{} in {} of {}", text.empty() ? "" : "; ", end, count,
+                            weighed.flights / 2);
+    }
+    return text;
+}
+
+std::string measured_by(const Assumption& assumption) {
+    return assumption.measurement.empty() ? "" : "  measure: " + assumption.measurement;
+}
+
+std::string outcomes_text(const Register& all) {
+    std::map<std::string, std::size_t> counted;
+    for (const std::string& outcome : all.outcomes) {
+        ++counted[outcome];
+    }
+    std::string text;
+    for (const auto& [outcome, count] : counted) {
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, outcome);
+    }
+    return text;
+}
+
+std::string flips_text(const Register& all) {
+    std::string text;
+    for (const Weighed& weighed : all.values) {
+        if (!weighed.flips.empty()) {
+            text +=
+                fmt::format("  {} = {:g} {}: {}\n", weighed.assumption.key,
+                            weighed.assumption.value, weighed.assumption.unit, flip_text(weighed));
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string register_text(const Register& all) {
+    std::string text =
+        fmt::format("{}: {} assumed values, each {:g} % less and more; {} seeds\n", all.scenario,
+                    all.values.size(), 100.0 * all.share, all.seeds.size());
+    text += "as it is   " + outcomes_text(all) + "\n";
+    const std::string flips = flips_text(all);
+    text += flips.empty() ? "no value changes how a flight ends\n"
+                          : "how a flight ends hangs on\n" + flips;
+    for (const std::string_view figure : kFigures) {
+        const auto found = that_move(all, figure, kMostShown);
+        if (found.empty()) {
+            continue;
+        }
+        text += fmt::format("\n{}, {:.4g}: change with {:g} % more\n", figure,
+                            effect_of(*found.front(), figure).base, 100.0 * all.share);
+        for (const Weighed* weighed : found) {
+            const Effect& effect = effect_of(*weighed, figure);
+            text += fmt::format("  {:<40} {:>+10.3g} +- {:<8.2g}{}\n", weighed->assumption.key,
+                                effect.change, effect.error, measured_by(weighed->assumption));
+        }
+    }
+    return text + fmt::format("\nflights    {} flown in {:.1f} s\n", all.flights, all.wall_s);
+}
+
+std::string hangs_on_text(const Register& all) {
+    const std::string flips = flips_text(all);
+    return flips.empty() ? fmt::format(
+                               "this outcome hangs on none of {} assumed values: each {:g} % less "
+                               "and more ends alike\n",
+                               all.values.size(), 100.0 * all.share)
+                         : "this outcome hangs on\n" + flips;
+}
+
+std::string register_json(const Register& all) {
+    Json values = Json::array();
+    for (const Weighed& weighed : all.values) {
+        const Assumption& assumption = weighed.assumption;
+        Json effects = Json::object(), flips = Json::array();
+        for (const Effect& effect : weighed.effects) {
+            if (effect.seeds > 0) {
+                effects[std::string(effect.metric)] = {{"base", effect.base},
+                                                       {"change", effect.change},
+                                                       {"standard_error", effect.error},
+                                                       {"seeds", effect.seeds}};
+            }
+        }
+        for (const Flip& flip : weighed.flips) {
+            flips.push_back({{"seed", flip.seed}, {"value", flip.to}, {"end", flip.outcome}});
+        }
+        values.push_back({{"key", assumption.key},
+                          {"value", assumption.value},
+                          {"unit", assumption.unit},
+                          {"description", assumption.description},
+                          {"source", assumption.source},
+                          {"measurement", assumption.measurement},
+                          {"flips", flips},
+                          {"effects", effects}});
+    }
+    const Json json = {{"scenario", all.scenario}, {"share", all.share},     {"seeds", all.seeds},
+                       {"as_it_is", all.outcomes}, {"flights", all.flights}, {"values", values}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace limpet::assumptions
