@@ -71,7 +71,7 @@ std::vector<Group> groups_by_bin(const std::vector<Trials>& trials, const Interv
 
 KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
                          const std::string& success, std::uint32_t finished) {
-    KeySummary summary{.key = key.key, .named = is_named(key), .groups = {}, .fit = {}};
+    KeySummary summary{.key = key.key, .named = is_named(key)};
     if (summary.named) {
         for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
             summary.groups.push_back({value.getString(), 0.0, 0.0, p});
@@ -95,6 +95,12 @@ KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
     summary.fit = fit_logistic(trials);
     if (summary.fit && std::abs(summary.fit->slope) < kNormal95 * summary.fit->slope_error) {
         summary.fit.reset();  // no trend: a curve would draw noise
+    }
+    if (summary.fit) {
+        constexpr int kFitted = 2;
+        summary.fit_goodness = goodness_of(
+            trials, [&](double x) { return summary.fit->probability(x); }, kFitted);
+        summary.curve = fit_success_curve(trials);
     }
     return summary;
 }

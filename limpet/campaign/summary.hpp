@@ -8,6 +8,7 @@
 
 #include "limpet/campaign/results.hpp"
 #include "limpet/campaign/statistics.hpp"
+#include "limpet/campaign/success_curve.hpp"
 
 namespace limpet::campaign {
 
@@ -31,8 +32,16 @@ struct Group {
 struct KeySummary {
     std::string key;
     bool named = false;
-    std::vector<Group> groups;
-    std::optional<LogisticFit> fit;  ///< of the runs themselves, not of the groups
+    std::vector<Group> groups = {};
+    std::optional<LogisticFit> fit = {};  ///< of the runs themselves, not of the groups
+    std::optional<Goodness> fit_goodness = {};
+    std::optional<SuccessCurve> curve = {};  ///< with a plateau; where there is a fit
+    /// The curve with a plateau is the one that the runs follow rather.
+    [[nodiscard]] bool fit_rejected() const { return fit_goodness && fit_goodness->rejected(); }
+    /// By the fit, or where that is rejected by the curve; there is a fit.
+    [[nodiscard]] double probability(double x) const {
+        return curve && fit_rejected() ? curve->probability(x) : fit->probability(x);
+    }
 };
 
 struct MetricSummary {

@@ -89,7 +89,7 @@ draw::ChartPanel success_against(const KeySummary& key) {
         if (key.fit) {
             panel.series.push_back({.colour = draw::colours::kOrange});
             panel.series.back().add(*panel.x_range, kFitPoints,
-                                    [&](double x) { return key.fit->probability(x); });
+                                    [&](double x) { return key.probability(x); });
         }
     }
     panel.series.push_back(points);

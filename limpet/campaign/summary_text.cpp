@@ -28,6 +28,23 @@ std::string bar(const Proportion& p) {
     return std::string(full, '#') + std::string(kBar - full, '.');
 }
 
+/// "chi2 17.7 on 7, p 0.014: the runs do not follow it"
+std::string goodness_text(const Goodness& good) {
+    return fmt::format("chi2 {:.3g} on {}, p {:.2g}{}", good.chi2, good.degrees, good.p,
+                       good.rejected() ? ": the runs do not follow it" : "");
+}
+
+/// "with a plateau: 0.80 (0.70..0.93) at most, half at 0.756 (0.70..0.82); chi2 ..."
+std::string curve_text(const SuccessCurve& curve) {
+    const std::string half = curve.half
+                                 ? fmt::format("half at {:.3g} ({:.3g}..{:.3g})", *curve.half,
+                                               curve.half_95.low, curve.half_95.high)
+                                 : "half not reached";
+    return fmt::format("with a plateau: {:.2f} ({:.2f}..{:.2f}) at most, {}; {}", curve.plateau,
+                       curve.plateau_95.low, curve.plateau_95.high, half,
+                       goodness_text(curve.goodness));
+}
+
 class Text {
 public:
     template <class... Values>
@@ -73,8 +90,12 @@ void add_key(Text& text, const KeySummary& key) {
     }
     if (key.fit) {
         const LogisticFit& fit = *key.fit;
-        text.line("logistic fit: half at {:.4g} +- {:.2g}, slope {:.4g} +- {:.2g} (95 %)", fit.half,
-                  kNormal95 * fit.half_error, fit.slope, kNormal95 * fit.slope_error);
+        text.line("logistic fit: half at {:.4g} +- {:.2g}, slope {:.4g} +- {:.2g} (95 %){}",
+                  fit.half, kNormal95 * fit.half_error, fit.slope, kNormal95 * fit.slope_error,
+                  key.fit_goodness ? "; " + goodness_text(*key.fit_goodness) : "");
+        if (key.curve && key.fit_rejected()) {
+            text.line("{}", curve_text(*key.curve));
+        }
     }
 }
 
@@ -115,6 +136,23 @@ Json json_of(const std::vector<EndingCount>& endings, bool with_reason) {
     return list;
 }
 
+Json json_of(const Goodness& good) {
+    return {{"chi2", good.chi2}, {"degrees_of_freedom", good.degrees}, {"p", good.p}};
+}
+
+Json json_of(const SuccessCurve& curve) {
+    return {{"along", curve.along_logarithm ? "logarithm" : "value"},
+            {"intercept", curve.intercept},
+            {"slope", curve.slope},
+            {"plateau", curve.plateau},
+            {"plateau_low", curve.plateau_95.low},
+            {"plateau_high", curve.plateau_95.high},
+            {"half", curve.half ? Json(*curve.half) : Json(nullptr)},
+            {"half_low", curve.half ? Json(curve.half_95.low) : Json(nullptr)},
+            {"half_high", curve.half ? Json(curve.half_95.high) : Json(nullptr)},
+            {"goodness", json_of(curve.goodness)}};
+}
+
 Json json_of(const KeySummary& key) {
     Json groups = Json::array();
     for (const Group& group : key.groups) {
@@ -129,9 +167,13 @@ Json json_of(const KeySummary& key) {
                {"slope", key.fit->slope},
                {"slope_standard_error", key.fit->slope_error},
                {"half", key.fit->half},
-               {"half_standard_error", key.fit->half_error}};
+               {"half_standard_error", key.fit->half_error},
+               {"goodness", key.fit_goodness ? json_of(*key.fit_goodness) : Json(nullptr)}};
     }
-    return {{"key", key.key}, {"groups", groups}, {"logistic", fit}};
+    return {{"key", key.key},
+            {"groups", groups},
+            {"logistic", fit},
+            {"plateau", key.curve ? json_of(*key.curve) : Json(nullptr)}};
 }
 
 }  // namespace
