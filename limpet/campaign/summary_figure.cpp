@@ -19,8 +19,8 @@ using Mark = draw::ChartSeries::Mark;
 constexpr std::size_t kMostPanels = 8;
 constexpr int kFitPoints = 120;
 
-void add(draw::ChartSeries& series, double x, const Proportion& proportion) {
-    const Interval interval = proportion.interval();
+void add(draw::ChartSeries& series, double x, const statistics::Proportion& proportion) {
+    const statistics::Interval interval = proportion.interval();
     series.add(x, proportion.probability(), {interval.low, interval.high});
 }
 

@@ -16,26 +16,26 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kBar = 20;
 
 /// "  0.873  0.81..0.92    48 of 55"
-std::string cells(const Proportion& p) {
-    const Interval interval = p.interval();
+std::string cells(const statistics::Proportion& p) {
+    const statistics::Interval interval = p.interval();
     return fmt::format("{:6.3f}  {:.2f}..{:.2f}  {:>6} of {}", p.probability(), interval.low,
                        interval.high, p.successes, p.runs);
 }
 
-std::string bar(const Proportion& p) {
+std::string bar(const statistics::Proportion& p) {
     const double probability = p.runs == 0 ? 0.0 : p.probability();
     const auto full = static_cast<std::size_t>(std::lround(probability * kBar));
     return std::string(full, '#') + std::string(kBar - full, '.');
 }
 
 /// "chi2 17.7 on 7, p 0.014: the runs do not follow it"
-std::string goodness_text(const Goodness& good) {
+std::string goodness_text(const statistics::Goodness& good) {
     return fmt::format("chi2 {:.3g} on {}, p {:.2g}{}", good.chi2, good.degrees, good.p,
                        good.rejected() ? ": the runs do not follow it" : "");
 }
 
 /// "with a plateau: 0.80 (0.70..0.93) at most, half at 0.756 (0.70..0.82); chi2 ..."
-std::string curve_text(const SuccessCurve& curve) {
+std::string curve_text(const statistics::SuccessCurve& curve) {
     const std::string half = curve.half
                                  ? fmt::format("half at {:.3g} ({:.3g}..{:.3g})", *curve.half,
                                                curve.half_95.low, curve.half_95.high)
@@ -89,9 +89,10 @@ void add_key(Text& text, const KeySummary& key) {
         }
     }
     if (key.fit) {
-        const LogisticFit& fit = *key.fit;
+        const statistics::LogisticFit& fit = *key.fit;
         text.line("logistic fit: half at {:.4g} +- {:.2g}, slope {:.4g} +- {:.2g} (95 %){}",
-                  fit.half, kNormal95 * fit.half_error, fit.slope, kNormal95 * fit.slope_error,
+                  fit.half, statistics::kNormal95 * fit.half_error, fit.slope,
+                  statistics::kNormal95 * fit.slope_error,
                   key.fit_goodness ? "; " + goodness_text(*key.fit_goodness) : "");
         if (key.curve && key.fit_rejected()) {
             text.line("{}", curve_text(*key.curve));
@@ -110,8 +111,8 @@ void add_metrics(Text& text, const std::vector<MetricSummary>& metrics) {
     }
 }
 
-Json json_of(const Proportion& p) {
-    const Interval interval = p.interval();
+Json json_of(const statistics::Proportion& p) {
+    const statistics::Interval interval = p.interval();
     return {{"successes", p.successes},
             {"runs", p.runs},
             {"probability", p.runs > 0 ? Json(p.probability()) : Json(nullptr)},
@@ -126,7 +127,7 @@ Json json_of(const std::vector<EndingCount>& endings, bool with_reason) {
         if (with_reason) {
             entry["reason"] = ending.reason;
         }
-        const Interval interval = ending.proportion.interval();
+        const statistics::Interval interval = ending.proportion.interval();
         entry["runs"] = ending.proportion.successes;
         entry["probability"] = ending.proportion.probability();
         entry["low"] = interval.low;
@@ -136,11 +137,11 @@ Json json_of(const std::vector<EndingCount>& endings, bool with_reason) {
     return list;
 }
 
-Json json_of(const Goodness& good) {
+Json json_of(const statistics::Goodness& good) {
     return {{"chi2", good.chi2}, {"degrees_of_freedom", good.degrees}, {"p", good.p}};
 }
 
-Json json_of(const SuccessCurve& curve) {
+Json json_of(const statistics::SuccessCurve& curve) {
     return {{"along", curve.along_logarithm ? "logarithm" : "value"},
             {"intercept", curve.intercept},
             {"slope", curve.slope},

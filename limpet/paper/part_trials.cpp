@@ -72,7 +72,7 @@ void measure_jump(const campaign::KeySummary& key, const std::vector<double>& pr
 draw::ChartSeries shares(const campaign::KeySummary& key, const char* name) {
     draw::ChartSeries points{.name = name, .mark = draw::ChartSeries::Mark::points};
     for (const campaign::Group& group : key.groups) {
-        const campaign::Interval interval = group.proportion.interval();
+        const statistics::Interval interval = group.proportion.interval();
         points.add(group.middle(), group.proportion.probability(), {interval.low, interval.high});
     }
     return points;
@@ -126,7 +126,7 @@ void study_beyond_fig3(Study& study) {
 void measure_curve(const campaign::KeySummary& key, Evidence& evidence) {
     require(key.fit && key.fit_goodness && key.curve && key.curve->half,
             "trials that are fitted, half of which attach somewhere");
-    const campaign::SuccessCurve& curve = *key.curve;
+    const statistics::SuccessCurve& curve = *key.curve;
     for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
              {"fig3.half_m_s", *curve.half},
              {"fig3.half_low_m_s", curve.half_95.low},
@@ -154,7 +154,7 @@ void study_assumptions(Study& study) {
     double least = kNaN, most = kNaN;
     for (const MovedTrials& moved : all) {
         const std::vector<campaign::Group>& groups = by_speed(moved.summary).groups;
-        const campaign::SuccessCurve& curve = moved.curve;
+        const statistics::SuccessCurve& curve = moved.curve;
         const double slow = between(groups, 0.0, 0.35).probability();
         const bool keeps = slow <= kAsNone && best_margin(groups).mean >= 0.0;
         const double docked = curve.probability(kDock_m_s);

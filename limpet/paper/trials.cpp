@@ -119,10 +119,10 @@ const campaign::KeySummary& by_speed(const campaign::CampaignSummary& summary) {
     return success_by(summary, kSpeedKey);
 }
 
-campaign::Proportion between(const std::vector<campaign::Group>& groups, double from_m_s,
-                             double to_m_s) {
+statistics::Proportion between(const std::vector<campaign::Group>& groups, double from_m_s,
+                               double to_m_s) {
     constexpr double kRounding_m_s = 1e-6;
-    campaign::Proportion sum{};
+    statistics::Proportion sum{};
     for (const campaign::Group& group : groups) {
         if (group.middle() > from_m_s - kRounding_m_s && group.middle() < to_m_s + kRounding_m_s) {
             sum.successes += group.proportion.successes;
@@ -134,11 +134,11 @@ campaign::Proportion between(const std::vector<campaign::Group>& groups, double 
 }
 
 BestMargin best_margin(const std::vector<campaign::Group>& groups) {
-    const auto variance = [](const campaign::Proportion& p) {
+    const auto variance = [](const statistics::Proportion& p) {
         return p.probability() * (1.0 - p.probability()) / p.runs;
     };
-    const campaign::Proportion best = between(groups, 1.0, 1.2);
-    campaign::Proportion slower{};
+    const statistics::Proportion best = between(groups, 1.0, 1.2);
+    statistics::Proportion slower{};
     for (const campaign::Group& group : groups) {
         if (group.middle() < 0.95 &&
             (slower.runs == 0 || group.proportion.probability() > slower.probability())) {
@@ -146,7 +146,7 @@ BestMargin best_margin(const std::vector<campaign::Group>& groups) {
         }
     }
     const double mean = best.probability() - slower.probability();
-    return {mean, mean - campaign::kNormal95 * std::sqrt(variance(best) + variance(slower))};
+    return {mean, mean - statistics::kNormal95 * std::sqrt(variance(best) + variance(slower))};
 }
 
 std::vector<MovedTrials> fly_moved_trials(const Study& study, int repeats) {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "limpet/campaign/success_curve.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/statistics/success_curve.hpp"
 
 /// The pendulum trials of Fig. 3: flown, counted by speed, and flown again with what is assumed of
 /// them moved.
@@ -27,8 +27,8 @@ namespace limpet::paper {
 [[nodiscard]] const campaign::KeySummary& by_speed(const campaign::CampaignSummary& summary);
 
 /// Successes and runs from one speed to another, both included.
-[[nodiscard]] campaign::Proportion between(const std::vector<campaign::Group>& groups,
-                                           double from_m_s, double to_m_s);
+[[nodiscard]] statistics::Proportion between(const std::vector<campaign::Group>& groups,
+                                             double from_m_s, double to_m_s);
 
 /// By how much the paper's best speeds, 1.0 to 1.2 m/s, attach more often than any slower one.
 struct BestMargin {
@@ -41,7 +41,7 @@ struct BestMargin {
 struct MovedTrials {
     std::string assumption;  ///< "threshold -20 %"; of the first: "as assumed"
     campaign::CampaignSummary summary;
-    campaign::SuccessCurve curve;
+    statistics::SuccessCurve curve;
 };
 
 /// The first as assumed; then the threshold's median and the slider's damping a fifth down and up,

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 
 /// Two-sided 95 % of a standard normal.
 inline constexpr double kNormal95 = 1.959963984540054;
@@ -28,6 +28,9 @@ struct Proportion {
     /// Source: Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
     [[nodiscard]] Interval interval() const;
 };
+
+/// 1 / (1 + exp(-eta))
+[[nodiscard]] double logistic(double eta);
 
 /// P(success) = 1 / (1 + exp(-(intercept + slope x))).
 struct LogisticFit {
@@ -84,4 +87,4 @@ private:
 [[nodiscard]] std::vector<double> quantiles(std::size_t count, const std::vector<double>& shares,
                                             const std::function<double()>& next);
 
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics

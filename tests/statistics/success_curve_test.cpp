@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/success_curve.hpp"
+#include "limpet/statistics/success_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 namespace {
 
 /// Trials at eleven values, drawn from a curve.
@@ -145,4 +145,4 @@ TEST(SuccessCurve, SaysNoMiddleThatIsNotReached) {
 }
 
 }  // namespace
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,16 +9,12 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 namespace {
 
 constexpr int kMostIterations = 50;
 constexpr double kConverged = 1e-10;
 constexpr double kSteepest = 50.0;  ///< per standard deviation of x: a step, not a slope
-
-double logistic(double eta) {
-    return 1.0 / (1.0 + std::exp(-eta));
-}
 
 /// Sums of Newton's step for the two coefficients.
 struct Newton {
@@ -75,6 +71,10 @@ bool can_be_fitted(const std::vector<Trials>& trials) {
 }
 
 }  // namespace
+
+double logistic(double eta) {
+    return 1.0 / (1.0 + std::exp(-eta));
+}
 
 double Proportion::probability() const {
     return runs == 0 ? kNaN : static_cast<double>(successes) / static_cast<double>(runs);
@@ -182,4 +182,4 @@ std::vector<double> quantiles(std::size_t count, const std::vector<double>& shar
     return found;
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics

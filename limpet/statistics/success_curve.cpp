@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/success_curve.hpp"
+#include "limpet/statistics/success_curve.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,16 +9,12 @@
 
 #include "limpet/core/frames.hpp"
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 namespace {
 
 constexpr double kLeastExpected = 2.0;   ///< successes and failures of a cell
 constexpr double kHalfChi2_95 = 1.9207;  ///< of one degree of freedom: a profile falls by it
 constexpr double kOfOne = 1e-6;          ///< nearer to 1 a plateau is none
-
-double rising(double eta) {
-    return 1.0 / (1.0 + std::exp(-eta));
-}
 
 /// Cells of a comparison, from what each trial expects.
 struct ExpectedCell {
@@ -60,7 +56,7 @@ struct Profile {
 double log_likelihood(const std::vector<Trials>& trials, double plateau, const Eigen::Vector2d& b) {
     double sum = 0.0;
     for (const Trials& t : trials) {
-        const double p = plateau * rising(b[0] + b[1] * t.x);
+        const double p = plateau * logistic(b[0] + b[1] * t.x);
         const double k = t.proportion.successes, n = t.proportion.runs;
         sum += (k > 0.0 ? k * std::log(p) : 0.0) + (n > k ? (n - k) * std::log1p(-p) : 0.0);
     }
@@ -75,7 +71,7 @@ Profile profile_at(const std::vector<Trials>& trials, double plateau, Eigen::Vec
         Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
         Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
         for (const Trials& t : trials) {
-            const double share = rising(b[0] + b[1] * t.x), p = plateau * share;
+            const double share = logistic(b[0] + b[1] * t.x), p = plateau * share;
             const Eigen::Vector2d z = {1.0, t.x};
             // dp/deta = p (1 - share), over the variance p (1 - p)
             const double ratio = (1.0 - share) / std::max(1.0 - p, 1e-300);
@@ -172,7 +168,7 @@ private:
 double half_error(const std::vector<Trials>& trials, const SuccessCurve& scaled, double z) {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     for (const Trials& t : trials) {
-        const double share = rising(scaled.intercept + scaled.slope * t.x);
+        const double share = logistic(scaled.intercept + scaled.slope * t.x);
         const double p = scaled.plateau * share;
         const Eigen::Vector3d d = {p * (1.0 - share), p * (1.0 - share) * t.x, share};
         information += t.proportion.runs / (p * (1.0 - p)) * d * d.transpose();
@@ -223,7 +219,7 @@ std::optional<Goodness> goodness_of(const std::vector<Trials>& trials,
 }
 
 double SuccessCurve::probability(double x) const {
-    return plateau * rising(intercept + slope * (along_logarithm ? std::log(x) : x));
+    return plateau * logistic(intercept + slope * (along_logarithm ? std::log(x) : x));
 }
 
 std::optional<SuccessCurve> fit_success_curve(const std::vector<Trials>& trials) {
@@ -275,4 +271,4 @@ std::optional<SuccessCurve> fit_success_curve(const std::vector<Trials>& trials)
     return curve;
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 namespace {
 
 TEST(Wilson, HandCalculations) {
@@ -158,4 +158,4 @@ TEST(Quantile, OfNumbersThatPassByIsThatOfAllOfThem) {
 }
 
 }  // namespace
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics

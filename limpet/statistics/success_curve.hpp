@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 
 /// How far runs lie from a curve, by Pearson's chi-squared over cells of neighbouring values, each
 /// of which expects two successes and two failures at least.
@@ -55,4 +55,4 @@ struct SuccessCurve {
 /// @return nullopt where fit_logistic() has none, or with too few cells to judge the fit
 [[nodiscard]] std::optional<SuccessCurve> fit_success_curve(const std::vector<Trials>& trials);
 
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics
