@@ -178,12 +178,12 @@ struct FlownCauses {
     /// Of those that explain what is stated 1 / (chance of having been chosen), else 0: the mean of
     /// a set's weights is its evidence, whatever the chances were.
     CausePosterior posterior;
-    std::vector<double> evidence_errors;  ///< standard errors, one a set
-    std::size_t flown = 0;                ///< draws
-    std::size_t explaining = 0;           ///< of them
-    /// Standard error of posterior.probability(), by leaving out a twentieth of the prior at a
-    /// time.
-    [[nodiscard]] double probability_error(Cause cause) const;
+    std::vector<double> evidence_errors;         ///< standard errors, one a set
+    std::vector<statistics::Proportion> shares;  ///< one a set: of those flown, how many explain it
+    std::size_t flown = 0;                       ///< draws
+    std::size_t explaining = 0;                  ///< of them
+    /// 95 % of posterior.probability(), by the effective number of the draws that explain it.
+    [[nodiscard]] statistics::Interval probability_interval(Cause cause) const;
 };
 /// Flies draws of the prior, those more probably that the closed form takes for likely.
 /// @param closed  weigh()'s

@@ -70,33 +70,12 @@ bool explains(const CausePoint& point, const SwingStatement& stated, std::uint32
                   stated.simulated_to_deg);
 }
 
-double FlownCauses::probability_error(Cause cause) const {
-    constexpr std::size_t kParts = 20;
-    std::vector<double> found;
-    for (std::size_t part = 0; part < kParts; ++part) {
-        double with = 0.0, all = 0.0;
-        for (std::size_t set = 0; set < posterior.weighted.size(); ++set) {
-            const std::vector<double>& weights = posterior.weighted[set].weights;
-            for (std::size_t k = 0; k < weights.size(); ++k) {
-                if (k % kParts != part) {
-                    all += weights[k];
-                    with += takes_part(set, cause) ? weights[k] : 0.0;
-                }
-            }
-        }
-        if (all > 0.0) {
-            found.push_back(with / all);
-        }
+statistics::Interval FlownCauses::probability_interval(Cause cause) const {
+    study::Weighted together;
+    for (const study::Weighted& set : posterior.weighted) {
+        together.weights.insert(together.weights.end(), set.weights.begin(), set.weights.end());
     }
-    double mean = 0.0, squares = 0.0;
-    for (const double one : found) {
-        mean += one / static_cast<double>(found.size());
-    }
-    for (const double one : found) {
-        squares += (one - mean) * (one - mean);
-    }
-    const auto parts = static_cast<double>(found.size());
-    return std::sqrt((parts - 1.0) / parts * squares);
+    return statistics::wilson(posterior.probability(cause), together.effective());
 }
 
 FlownCauses fly_chosen(const CausePosterior& closed, const SwingStatement& stated,
@@ -113,14 +92,17 @@ FlownCauses fly_chosen(const CausePosterior& closed, const SwingStatement& state
     });
     FlownCauses found{.posterior = {.draws = closed.draws, .weighted = closed.weighted},
                       .evidence_errors = {},
+                      .shares = std::vector<statistics::Proportion>(closed.weighted.size()),
                       .flown = chosen.size()};
     for (study::Weighted& set : found.posterior.weighted) {
         set.weights.assign(set.weights.size(), 0.0);
     }
     std::vector<double> variances(closed.weighted.size(), 0.0);  // of the sums, by the choice
     for (const Chosen& one : chosen) {
+        ++found.shares[one.set].runs;
         if (one.explains) {
             ++found.explaining;
+            ++found.shares[one.set].successes;
             found.posterior.weighted[one.set].weights[one.draw] = 1.0 / one.chance;
             variances[one.set] += (1.0 - one.chance) / (one.chance * one.chance);
         }

@@ -59,10 +59,14 @@ struct Posteriors {
     const causes::CausePosterior& both;
 };
 
-/// "0.012 +- 0.006", 95 %.
+/// "0.012 +- 0.006 (3 of 20)", 95 %; where none of those flown explain it there is no error.
 std::string evidence_text(const causes::FlownCauses& flown, std::size_t set) {
-    return fmt::format("{:.3f} +- {:.3f}", flown.posterior.weighted[set].evidence(),
-                       statistics::kNormal95 * flown.evidence_errors[set]);
+    const statistics::Proportion& share = flown.shares[set];
+    const std::string counts = fmt::format("{} of {}", share.successes, share.runs);
+    return share.successes == 0
+               ? counts
+               : fmt::format("{:.3f} +- {:.3f} ({})", flown.posterior.weighted[set].evidence(),
+                             statistics::kNormal95 * flown.evidence_errors[set], counts);
 }
 
 void report_probabilities(Study& study, const Posteriors& all) {
@@ -75,9 +79,8 @@ void report_probabilities(Study& study, const Posteriors& all) {
     for (std::size_t i = 0; i < causes::kCauses; ++i) {
         const auto cause = static_cast<causes::Cause>(i);
         const double probability = all.flown.posterior.probability(cause);
-        const double error = statistics::kNormal95 * all.flown.probability_error(cause);
-        const draw::Range interval = {std::max(0.0, probability - error),
-                                      std::min(1.0, probability + error)};
+        const statistics::Interval around = all.flown.probability_interval(cause);
+        const draw::Range interval = {around.low, around.high};
         const bool told = interval.low > 0.5 || interval.high < 0.5;
         decided += told ? 1.0 : 0.0;
         const std::size_t alone = std::size_t{1} << i, others = kEvery & ~alone;

@@ -80,18 +80,20 @@ double Proportion::probability() const {
     return runs == 0 ? kNaN : static_cast<double>(successes) / static_cast<double>(runs);
 }
 
-Interval Proportion::interval() const {
-    if (runs == 0) {
+Interval wilson(double share, double runs) {
+    if (!(runs > 0.0)) {
         return {0.0, 1.0};
     }
-    const double n = runs;
-    const double p = probability();
     const double zz = kNormal95 * kNormal95;
-    const double centre = (p + zz / (2.0 * n)) / (1.0 + zz / n);
-    const double half =
-        kNormal95 / (1.0 + zz / n) * std::sqrt(p * (1.0 - p) / n + zz / (4.0 * n * n));
+    const double centre = (share + zz / (2.0 * runs)) / (1.0 + zz / runs);
+    const double half = kNormal95 / (1.0 + zz / runs) *
+                        std::sqrt(share * (1.0 - share) / runs + zz / (4.0 * runs * runs));
     // At the ends the formula is 0 and 1 but for rounding.
-    return {successes == 0 ? 0.0 : centre - half, successes == runs ? 1.0 : centre + half};
+    return {share <= 0.0 ? 0.0 : centre - half, share >= 1.0 ? 1.0 : centre + half};
+}
+
+Interval Proportion::interval() const {
+    return wilson(runs == 0 ? 0.0 : probability(), runs);
 }
 
 double LogisticFit::probability(double x) const {

@@ -17,6 +17,11 @@ struct Interval {
     double high = 0.0;
 };
 
+/// Wilson's score interval, 95 %, of a share of so many runs, which may be an effective number of
+/// weighted ones; 0..1 without any.
+/// Source: Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
+[[nodiscard]] Interval wilson(double share, double runs);
+
 /// A share of runs with its 95 % interval.
 struct Proportion {
     std::uint32_t successes = 0;
@@ -24,8 +29,7 @@ struct Proportion {
 
     /// NaN without runs.
     [[nodiscard]] double probability() const;
-    /// Wilson's score interval: honest at 0, at 1 and with few runs; 0..1 without any.
-    /// Source: Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
+    /// Wilson's: honest at 0, at 1 and with few runs.
     [[nodiscard]] Interval interval() const;
 };
 

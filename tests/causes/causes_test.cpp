@@ -194,6 +194,8 @@ TEST(CausesFlown, AllDrawsChosenAreAPlainShare) {
     const CausePosterior closed = weigh(prior, {}, stated);  // none rests: all are impossible
     const FlownCauses flown = fly_chosen(closed, stated, 6, 3, 2);
     EXPECT_EQ(flown.flown, 6U);
+    EXPECT_EQ(flown.shares[1].runs, 6U);
+    EXPECT_EQ(flown.shares[1].successes, flown.explaining);
     EXPECT_DOUBLE_EQ(flown.posterior.weighted[1].evidence(),
                      fly_plainly(prior[1], 6, stated, 2).probability());
 }

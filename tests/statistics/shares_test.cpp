@@ -25,6 +25,15 @@ TEST(Wilson, HandCalculations) {
     EXPECT_NEAR(all.low, 1.0 - none.high, 1e-12);
 }
 
+TEST(Wilson, OfAnEffectiveNumberIsThatOfAsManyRuns) {
+    EXPECT_EQ(wilson(0.8, 10.0).low, (Proportion{8, 10}.interval().low));
+    const Interval part = wilson(0.8, 10.5);
+    EXPECT_GT(part.low, wilson(0.8, 10.0).low);
+    EXPECT_LT(part.low, wilson(0.8, 11.0).low);
+    EXPECT_EQ(wilson(1.0, 7.3).high, 1.0);
+    EXPECT_EQ(wilson(0.5, 0.0).high, 1.0);
+}
+
 TEST(Wilson, WithoutRunsNothingIsKnown) {
     EXPECT_TRUE(std::isnan(Proportion{}.probability()));
     EXPECT_EQ(Proportion{}.interval().low, 0.0);
