@@ -64,6 +64,9 @@ void fly_parts(const ReproduceOptions& options) {
                                       report::to_text(claim.simulated), claim.unit));
         }
     }
+    for (const std::string& note : result.notes) {
+        terminal.line("note", note);
+    }
     const auto count = [&](const char* name) {
         return result.counts.get(std::string("statements.") + name);
     };

@@ -37,11 +37,11 @@ void for_each_value(SQLite::Database& database, const std::string& key, const st
                               sql_name(key), success));
     while (select.executeStep()) {
         each(select.getColumn(0),
-             Proportion{select.getColumn(1).getUInt(), select.getColumn(2).getUInt()});
+             statistics::Proportion{select.getColumn(1).getUInt(), select.getColumn(2).getUInt()});
     }
 }
 
-Interval range_of(SQLite::Database& database, const std::string& key) {
+statistics::Interval range_of(SQLite::Database& database, const std::string& key) {
     SQLite::Statement select(database,
                              fmt::format("SELECT min({0}), max({0}) FROM runs", sql_name(key)));
     select.executeStep();
@@ -49,8 +49,8 @@ Interval range_of(SQLite::Database& database, const std::string& key) {
 }
 
 /// @param values  so many were drawn or listed
-std::vector<Group> groups_by_bin(const std::vector<Trials>& trials, const Interval& range,
-                                 std::size_t values) {
+std::vector<Group> groups_by_bin(const std::vector<statistics::Trials>& trials,
+                                 const statistics::Interval& range, std::size_t values) {
     const std::size_t bins = std::clamp<std::size_t>(values / kRunsABin, 1, kMostBins);
     const double low = range.low;
     const double width = (range.high - low) / static_cast<double>(bins);
@@ -60,9 +60,10 @@ std::vector<Group> groups_by_bin(const std::vector<Trials>& trials, const Interv
         const double to = from + width;
         groups.push_back({fmt::format("{:.4g}..{:.4g}", from, to), from, to, {}});
     }
-    for (const Trials& t : trials) {
+    for (const statistics::Trials& t : trials) {
         const double at = width > 0.0 ? (t.x - low) / width : 0.0;
-        Proportion& sum = groups[std::min(static_cast<std::size_t>(at), bins - 1)].proportion;
+        statistics::Proportion& sum =
+            groups[std::min(static_cast<std::size_t>(at), bins - 1)].proportion;
         sum.runs += t.proportion.runs;
         sum.successes += t.proportion.successes;
     }
@@ -71,30 +72,39 @@ std::vector<Group> groups_by_bin(const std::vector<Trials>& trials, const Interv
 
 KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
                          const std::string& success, std::uint32_t finished) {
-    KeySummary summary{.key = key.key, .named = is_named(key), .groups = {}, .fit = {}};
+    KeySummary summary{.key = key.key, .named = is_named(key)};
     if (summary.named) {
-        for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
-            summary.groups.push_back({value.getString(), 0.0, 0.0, p});
-        });
+        for_each_value(database, key.key, success,
+                       [&](const auto& value, const statistics::Proportion& p) {
+                           summary.groups.push_back({value.getString(), 0.0, 0.0, p});
+                       });
         return summary;
     }
     const bool drawn = key.values.empty();
-    const Interval range = range_of(database, key.key);
-    TrialsAlong along(range, drawn ? finished : 0);
-    for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
-        along.add({value.getDouble(), p});
-    });
-    const std::vector<Trials>& trials = along.all();
+    const statistics::Interval range = range_of(database, key.key);
+    statistics::TrialsAlong along(range, drawn ? finished : 0);
+    for_each_value(database, key.key, success,
+                   [&](const auto& value, const statistics::Proportion& p) {
+                       along.add({value.getDouble(), p});
+                   });
+    const std::vector<statistics::Trials>& trials = along.all();
     if (drawn || trials.size() > kMostValues) {
         summary.groups = groups_by_bin(trials, range, drawn ? finished : trials.size());
     } else {
-        for (const Trials& t : trials) {
+        for (const statistics::Trials& t : trials) {
             summary.groups.push_back({scenario::number_text(t.x), t.x, t.x, t.proportion});
         }
     }
-    summary.fit = fit_logistic(trials);
-    if (summary.fit && std::abs(summary.fit->slope) < kNormal95 * summary.fit->slope_error) {
+    summary.fit = statistics::fit_logistic(trials);
+    if (summary.fit &&
+        std::abs(summary.fit->slope) < statistics::kNormal95 * summary.fit->slope_error) {
         summary.fit.reset();  // no trend: a curve would draw noise
+    }
+    if (summary.fit) {
+        constexpr int kFitted = 2;
+        summary.fit_goodness = statistics::goodness_of(
+            trials, [&](double x) { return summary.fit->probability(x); }, kFitted);
+        summary.curve = statistics::fit_success_curve(trials);
     }
     return summary;
 }
@@ -110,7 +120,7 @@ std::vector<MetricSummary> summarise_metrics(SQLite::Database& database) {
         SQLite::Statement select(
             database,
             fmt::format("SELECT {0} FROM runs WHERE {0} IS NOT NULL ORDER BY {0}", metric.name));
-        const std::vector<double> at = quantiles(runs, {0.05, 0.5, 0.95}, [&select] {
+        const std::vector<double> at = statistics::quantiles(runs, {0.05, 0.5, 0.95}, [&select] {
             select.executeStep();
             return select.getColumn(0).getDouble();
         });

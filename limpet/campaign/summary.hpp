@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "limpet/campaign/results.hpp"
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
+#include "limpet/statistics/success_curve.hpp"
 
 namespace limpet::campaign {
 
@@ -15,7 +16,7 @@ namespace limpet::campaign {
 struct EndingCount {
     std::string outcome;
     std::string reason;  ///< empty where outcomes alone are counted
-    Proportion proportion;
+    statistics::Proportion proportion;
 };
 
 /// Runs at one value of a key, or within low..high of it.
@@ -23,7 +24,7 @@ struct Group {
     std::string label;  ///< "1.1", "1.0..1.2", "metal"
     double low = 0.0;   ///< of numbers; equal to `high` where there is one value
     double high = 0.0;
-    Proportion proportion;
+    statistics::Proportion proportion;
     [[nodiscard]] double middle() const { return 0.5 * (low + high); }
 };
 
@@ -31,8 +32,16 @@ struct Group {
 struct KeySummary {
     std::string key;
     bool named = false;
-    std::vector<Group> groups;
-    std::optional<LogisticFit> fit;  ///< of the runs themselves, not of the groups
+    std::vector<Group> groups = {};
+    std::optional<statistics::LogisticFit> fit = {};  ///< of the runs themselves, not of the groups
+    std::optional<statistics::Goodness> fit_goodness = {};
+    std::optional<statistics::SuccessCurve> curve = {};  ///< with a plateau; where there is a fit
+    /// The curve with a plateau is the one that the runs follow rather.
+    [[nodiscard]] bool fit_rejected() const { return fit_goodness && fit_goodness->rejected(); }
+    /// By the fit, or where that is rejected by the curve; there is a fit.
+    [[nodiscard]] double probability(double x) const {
+        return curve && fit_rejected() ? curve->probability(x) : fit->probability(x);
+    }
 };
 
 struct MetricSummary {
@@ -54,7 +63,7 @@ struct CampaignSummary {
     std::uint32_t runs = 0;      ///< planned
     std::uint32_t finished = 0;  ///< flown
     std::vector<std::string> success_means;
-    Proportion success;
+    statistics::Proportion success;
     std::vector<EndingCount> outcomes;   ///< most frequent first
     std::vector<EndingCount> true_ends;  ///< by the truth, their names as outcomes
     std::vector<EndingCount> failures;   ///< outcome and reason of what is no success

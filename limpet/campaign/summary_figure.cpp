@@ -19,8 +19,8 @@ using Mark = draw::ChartSeries::Mark;
 constexpr std::size_t kMostPanels = 8;
 constexpr int kFitPoints = 120;
 
-void add(draw::ChartSeries& series, double x, const Proportion& proportion) {
-    const Interval interval = proportion.interval();
+void add(draw::ChartSeries& series, double x, const statistics::Proportion& proportion) {
+    const statistics::Interval interval = proportion.interval();
     series.add(x, proportion.probability(), {interval.low, interval.high});
 }
 
@@ -89,7 +89,7 @@ draw::ChartPanel success_against(const KeySummary& key) {
         if (key.fit) {
             panel.series.push_back({.colour = draw::colours::kOrange});
             panel.series.back().add(*panel.x_range, kFitPoints,
-                                    [&](double x) { return key.fit->probability(x); });
+                                    [&](double x) { return key.probability(x); });
         }
     }
     panel.series.push_back(points);

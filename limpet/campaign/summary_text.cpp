@@ -16,16 +16,33 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kBar = 20;
 
 /// "  0.873  0.81..0.92    48 of 55"
-std::string cells(const Proportion& p) {
-    const Interval interval = p.interval();
+std::string cells(const statistics::Proportion& p) {
+    const statistics::Interval interval = p.interval();
     return fmt::format("{:6.3f}  {:.2f}..{:.2f}  {:>6} of {}", p.probability(), interval.low,
                        interval.high, p.successes, p.runs);
 }
 
-std::string bar(const Proportion& p) {
+std::string bar(const statistics::Proportion& p) {
     const double probability = p.runs == 0 ? 0.0 : p.probability();
     const auto full = static_cast<std::size_t>(std::lround(probability * kBar));
     return std::string(full, '#') + std::string(kBar - full, '.');
+}
+
+/// "chi2 17.7 on 7, p 0.014: the runs do not follow it"
+std::string goodness_text(const statistics::Goodness& good) {
+    return fmt::format("chi2 {:.3g} on {}, p {:.2g}{}", good.chi2, good.degrees, good.p,
+                       good.rejected() ? ": the runs do not follow it" : "");
+}
+
+/// "with a plateau: 0.80 (0.70..0.93) at most, half at 0.756 (0.70..0.82); chi2 ..."
+std::string curve_text(const statistics::SuccessCurve& curve) {
+    const std::string half = curve.half
+                                 ? fmt::format("half at {:.3g} ({:.3g}..{:.3g})", *curve.half,
+                                               curve.half_95.low, curve.half_95.high)
+                                 : "half not reached";
+    return fmt::format("with a plateau: {:.2f} ({:.2f}..{:.2f}) at most, {}; {}", curve.plateau,
+                       curve.plateau_95.low, curve.plateau_95.high, half,
+                       goodness_text(curve.goodness));
 }
 
 class Text {
@@ -72,9 +89,14 @@ void add_key(Text& text, const KeySummary& key) {
         }
     }
     if (key.fit) {
-        const LogisticFit& fit = *key.fit;
-        text.line("logistic fit: half at {:.4g} +- {:.2g}, slope {:.4g} +- {:.2g} (95 %)", fit.half,
-                  kNormal95 * fit.half_error, fit.slope, kNormal95 * fit.slope_error);
+        const statistics::LogisticFit& fit = *key.fit;
+        text.line("logistic fit: half at {:.4g} +- {:.2g}, slope {:.4g} +- {:.2g} (95 %){}",
+                  fit.half, statistics::kNormal95 * fit.half_error, fit.slope,
+                  statistics::kNormal95 * fit.slope_error,
+                  key.fit_goodness ? "; " + goodness_text(*key.fit_goodness) : "");
+        if (key.curve && key.fit_rejected()) {
+            text.line("{}", curve_text(*key.curve));
+        }
     }
 }
 
@@ -89,8 +111,8 @@ void add_metrics(Text& text, const std::vector<MetricSummary>& metrics) {
     }
 }
 
-Json json_of(const Proportion& p) {
-    const Interval interval = p.interval();
+Json json_of(const statistics::Proportion& p) {
+    const statistics::Interval interval = p.interval();
     return {{"successes", p.successes},
             {"runs", p.runs},
             {"probability", p.runs > 0 ? Json(p.probability()) : Json(nullptr)},
@@ -105,7 +127,7 @@ Json json_of(const std::vector<EndingCount>& endings, bool with_reason) {
         if (with_reason) {
             entry["reason"] = ending.reason;
         }
-        const Interval interval = ending.proportion.interval();
+        const statistics::Interval interval = ending.proportion.interval();
         entry["runs"] = ending.proportion.successes;
         entry["probability"] = ending.proportion.probability();
         entry["low"] = interval.low;
@@ -113,6 +135,23 @@ Json json_of(const std::vector<EndingCount>& endings, bool with_reason) {
         list.push_back(std::move(entry));
     }
     return list;
+}
+
+Json json_of(const statistics::Goodness& good) {
+    return {{"chi2", good.chi2}, {"degrees_of_freedom", good.degrees}, {"p", good.p}};
+}
+
+Json json_of(const statistics::SuccessCurve& curve) {
+    return {{"along", curve.along_logarithm ? "logarithm" : "value"},
+            {"intercept", curve.intercept},
+            {"slope", curve.slope},
+            {"plateau", curve.plateau},
+            {"plateau_low", curve.plateau_95.low},
+            {"plateau_high", curve.plateau_95.high},
+            {"half", curve.half ? Json(*curve.half) : Json(nullptr)},
+            {"half_low", curve.half ? Json(curve.half_95.low) : Json(nullptr)},
+            {"half_high", curve.half ? Json(curve.half_95.high) : Json(nullptr)},
+            {"goodness", json_of(curve.goodness)}};
 }
 
 Json json_of(const KeySummary& key) {
@@ -129,9 +168,13 @@ Json json_of(const KeySummary& key) {
                {"slope", key.fit->slope},
                {"slope_standard_error", key.fit->slope_error},
                {"half", key.fit->half},
-               {"half_standard_error", key.fit->half_error}};
+               {"half_standard_error", key.fit->half_error},
+               {"goodness", key.fit_goodness ? json_of(*key.fit_goodness) : Json(nullptr)}};
     }
-    return {{"key", key.key}, {"groups", groups}, {"logistic", fit}};
+    return {{"key", key.key},
+            {"groups", groups},
+            {"logistic", fit},
+            {"plateau", key.curve ? json_of(*key.curve) : Json(nullptr)}};
 }
 
 }  // namespace

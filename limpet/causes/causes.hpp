@@ -9,6 +9,7 @@
 
 #include "limpet/core/random.hpp"
 #include "limpet/stability/map.hpp"
+#include "limpet/statistics/shares.hpp"
 #include "limpet/study/posterior.hpp"
 
 /// Why the paper's real vehicle swings while it waits and its simulation does not, with
@@ -88,21 +89,41 @@ struct PointSwing {
 [[nodiscard]] PointSwing swing_of(const CausePoint& point,
                                   const stability::SwingOf& linear = stability::linear_swing);
 
-/// How large the swing becomes: it begins at `start_deg`, is pushed by the wall's air, and grows.
-/// A flight's is that with a factor exp(scatter z), z standard normal.
-struct SwingSize {
+/// How large the swing becomes while the vehicle waits at one wall. What settling and noise show of
+/// it stays; what it begins with grows and is pushed by the wall's air. A flight's swing is that
+/// with a factor exp(s z), z standard normal.
+struct WaitSize {
+    double settled_deg = 0.0;
     double start_deg = 0.2;
-    double metal_scatter = 0.5;
-    double concrete_scatter = 0.5;
+    double scatter = 0.5;           ///< s of what does not grow
+    double growth_error_1_s = 0.0;  ///< of the linearised loop's growth, what grows scatters by it
+};
+/// The middle of many flights [deg], and the scatter of its logarithm.
+struct ExpectedSwing {
+    double middle_deg = 0.0;
+    double scatter = 0.0;
+    /// That a flight's swing lies between two ends, `from` >= 0.
+    [[nodiscard]] double probability(double from_deg, double to_deg) const;
+};
+/// Largest amplitude of the pitch in waiting for so long.
+[[nodiscard]] ExpectedSwing expected_swing(const WaitSize& size, const CausePoint& point,
+                                           const PointSwing& swing, double waited_s);
+struct SwingSize {
+    WaitSize metal, concrete;
     std::size_t flights = 0;  ///< by which these were found
     double held = 0.0;        ///< share of other flights within its 95 %
+    double without_figure =
+        0.0;  ///< share of all that show no swing: never docked, crashed, came off
 };
-/// Largest amplitude of the pitch in waiting for so long [deg], the middle of many flights.
-[[nodiscard]] double swing_deg(const SwingSize& size, const CausePoint& point,
-                               const PointSwing& swing, double waited_s);
-/// Whole missions at points of the prior, one half to fit start and scatter, the other to be held
-/// against them.
+/// Whole missions at points of the prior, each of a set of its own: one half to fit size and
+/// scatter by maximum likelihood, the other to be held against them.
 [[nodiscard]] SwingSize measure_size(std::size_t points, int jobs);
+
+/// Pitch in waiting [deg] of a whole mission; NaN where it never came to wait.
+/// @param wait  a scenario: kMetalMission, kConcreteMission
+[[nodiscard]] double flown_swing_deg(const char* wait, const CausePoint& point, std::uint32_t run);
+inline constexpr const char* kMetalMission = "perch_metal";
+inline constexpr const char* kConcreteMission = "perch_concrete";
 
 /// What the paper states of the swing, or what a synthetic vehicle shows.
 struct SwingStatement {
@@ -114,6 +135,10 @@ struct SwingStatement {
 };
 inline constexpr double kMetalWait_s = 16.0;
 inline constexpr double kConcreteWait_s = 1.0;
+
+/// The paper's simulation of a point: the same arm, gains and joint, Gazebo's motors in still air,
+/// and of the dead time what the autopilot brings with it.
+[[nodiscard]] CausePoint simulated(CausePoint point);
 
 /// A draw of the prior, and what the linearised loop makes of it and of the paper's simulation.
 struct CauseDraw {
@@ -139,8 +164,40 @@ struct CausePosterior {
     [[nodiscard]] double quantile(const std::function<double(const CauseDraw&)>& of,
                                   double share) const;
 };
+/// By the closed form.
 [[nodiscard]] CausePosterior weigh(const PriorDraws& draws, const SwingSize& size,
                                    const SwingStatement& stated);
+
+/// Whether whole missions of a draw show what is stated: on metal, on concrete, and in its
+/// simulation. One that gives no figure does not.
+[[nodiscard]] bool explains(const CausePoint& point, const SwingStatement& stated,
+                            std::uint32_t run);
+
+/// The posterior by flights, which knows nothing of the closed form but which draws to fly.
+struct FlownCauses {
+    /// Of those that explain what is stated 1 / (chance of having been chosen), else 0: the mean of
+    /// a set's weights is its evidence, whatever the chances were.
+    CausePosterior posterior;
+    std::vector<double> evidence_errors;         ///< standard errors, one a set
+    std::vector<statistics::Proportion> shares;  ///< one a set: of those flown, how many explain it
+    std::size_t flown = 0;                       ///< draws
+    std::size_t explaining = 0;                  ///< of them
+    /// 95 % of posterior.probability(), by the effective number of the draws that explain it.
+    [[nodiscard]] statistics::Interval probability_interval(Cause cause) const;
+};
+/// Flies draws of the prior, those more probably that the closed form takes for likely.
+/// @param closed  weigh()'s
+/// @param draws   so many, of all sets together
+[[nodiscard]] FlownCauses fly_chosen(const CausePosterior& closed, const SwingStatement& stated,
+                                     std::size_t draws, std::uint64_t seed, int jobs,
+                                     const std::function<void()>& between = {});
+/// The share of a set's first draws that explain what is stated, each flown: no closed form at all.
+[[nodiscard]] statistics::Proportion fly_plainly(const std::vector<CauseDraw>& set,
+                                                 std::size_t draws, const SwingStatement& stated,
+                                                 int jobs);
+/// The closed form's weights with a factor for each cause, so that its causes are as probable as
+/// flown: for what so few flights cannot tell, within sets.
+[[nodiscard]] CausePosterior agreeing(const CausePosterior& closed, const CausePosterior& flown);
 
 /// A measurement that nobody has published, and how many bits it would give on which causes take
 /// part.

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpet/campaign/statistics.hpp"
 #include "limpet/causes/causes.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/parallel.hpp"
+#include "limpet/statistics/shares.hpp"
 
 namespace limpet::causes {
 namespace {
@@ -16,8 +16,22 @@ std::size_t bit(Cause cause) {
     return std::size_t{1} << static_cast<std::size_t>(cause);
 }
 
-/// The paper's simulation of a point: the same arm, gains and joint, Gazebo's motors in still air,
-/// and of the dead time what the autopilot brings with it.
+double likelihood(const CauseDraw& draw, const SwingSize& size, const SwingStatement& stated) {
+    if (!draw.swing.rests || !draw.simulated.rests) {
+        return 0.0;  // both waited
+    }
+    const auto of = [&](const WaitSize& wait, const CausePoint& point, const PointSwing& swing,
+                        double waited_s) { return expected_swing(wait, point, swing, waited_s); };
+    return of(size.metal, draw.point, draw.swing, kMetalWait_s)
+               .probability(stated.metal_from_deg, stated.metal_to_deg) *
+           of(size.concrete, draw.point, draw.swing, kConcreteWait_s)
+               .probability(stated.concrete_from_deg, stated.concrete_to_deg) *
+           of(size.metal, simulated(draw.point), draw.simulated, kMetalWait_s)
+               .probability(0.0, stated.simulated_to_deg);
+}
+
+}  // namespace
+
 CausePoint simulated(CausePoint point) {
     const CausePoint gazebo = as_simulated();
     for (const Eigen::Index i : {kLag, kRatio, kMoment}) {
@@ -26,28 +40,6 @@ CausePoint simulated(CausePoint point) {
     point[kDelay] *= point[kShared];
     return point;
 }
-
-/// That a lognormal with this middle lies between two ends.
-double probability_between(double middle, double scatter, double from, double to) {
-    return normal_probability(std::log(to / middle) / scatter) -
-           normal_probability(std::log(from / middle) / scatter);
-}
-
-double likelihood(const CauseDraw& draw, const SwingSize& size, const SwingStatement& stated) {
-    if (!draw.swing.rests || !draw.simulated.rests) {
-        return 0.0;  // both waited
-    }
-    const double metal = swing_deg(size, draw.point, draw.swing, kMetalWait_s);
-    const double concrete = swing_deg(size, draw.point, draw.swing, kConcreteWait_s);
-    const double still = swing_deg(size, simulated(draw.point), draw.simulated, kMetalWait_s);
-    return probability_between(metal, size.metal_scatter, stated.metal_from_deg,
-                               stated.metal_to_deg) *
-           probability_between(concrete, size.concrete_scatter, stated.concrete_from_deg,
-                               stated.concrete_to_deg) *
-           normal_probability(std::log(stated.simulated_to_deg / still) / size.metal_scatter);
-}
-
-}  // namespace
 
 PriorDraws draw_prior(std::size_t draws, std::uint64_t seed, int jobs,
                       const std::function<void()>& between) {

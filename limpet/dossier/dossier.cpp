@@ -201,7 +201,7 @@ private:
             squares += (value - measured.value) * (value - measured.value);
         }
         measured.deviation = std::sqrt(squares / (n - 1.0));
-        measured.half_width = campaign::kNormal95 * measured.deviation / std::sqrt(n);
+        measured.half_width = statistics::kNormal95 * measured.deviation / std::sqrt(n);
         return measured;
     }
 

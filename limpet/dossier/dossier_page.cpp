@@ -105,8 +105,8 @@ PageTable bounds(const DossierFile& file, const std::map<std::string, QuantityFo
         add_row(
             table,
             {one.figure, one.unit,
-             some ? report::Quantity(draw::Range{campaign::quantile(found.inputs.values, 0.05),
-                                                 campaign::quantile(found.inputs.values, 0.95)})
+             some ? report::Quantity(draw::Range{statistics::quantile(found.inputs.values, 0.05),
+                                                 statistics::quantile(found.inputs.values, 0.95)})
                   : report::Quantity("did not come to pass"),
              most != nullptr ? fmt::format("{} ({:.2f})", most->key, most->index.total)
                              : std::string("too few flights"),

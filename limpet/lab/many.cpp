@@ -7,12 +7,12 @@
 #include <fstream>
 #include <new>
 
-#include "limpet/campaign/statistics.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
 #include "limpet/lab/request.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/statistics/shares.hpp"
 
 namespace limpet::lab {
 namespace {
@@ -181,7 +181,7 @@ std::string Many::rows(std::string_view request) {
     const bool running = running_;  // before the rows: none is missed when it has ended
     const campaign::Campaign& campaign = results_->campaign();
     const std::lock_guard lock(guards_landed_);
-    campaign::Proportion success{.runs = static_cast<std::uint32_t>(landed_.size())};
+    statistics::Proportion success{.runs = static_cast<std::uint32_t>(landed_.size())};
     json rows = json::array();
     const auto from = wanted.get<std::size_t>();
     for (std::size_t i = 0; i < landed_.size(); ++i) {
@@ -198,7 +198,7 @@ std::string Many::rows(std::string_view request) {
     for (const simulation::MetricInfo& metric : simulation::metric_table()) {
         metrics.push_back(metric.name);
     }
-    const campaign::Interval interval = success.interval();
+    const statistics::Interval interval = success.interval();
     return json{{"id", id_},
                 {"name", campaign.name},
                 {"scenario", campaign.scenario_name},

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "limpet/campaign/statistics.hpp"
 #include "limpet/stability/map.hpp"
+#include "limpet/statistics/shares.hpp"
 
 /// The question that the paper leaves open: why its real vehicle swings in pitch while the cup
 /// waits to release, and its simulation does not. Candidate: attitude control with a rate

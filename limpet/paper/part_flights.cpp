@@ -31,6 +31,9 @@ const std::vector<FlightOrder>& orders() {
          .scenario = "perch_concrete",
          .overrides = {"vehicle=" +
                        (scenario::data_root() / "vehicles" / "cad_uav" / "cad_uav.yaml").string()}},
+        {.name = "perch_motors",
+         .scenario = "perch_concrete",
+         .overrides = {"vehicle.rotor.motor_kv_rpm_V=380"}},
         {.name = "perch_near",
          .scenario = "perch_concrete",
          .overrides = {"guidance.pre_distance_m=1.2"}},

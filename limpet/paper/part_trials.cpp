@@ -6,40 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "limpet/campaign/campaign.hpp"
-#include "limpet/campaign/summary.hpp"
-#include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/paper/study.hpp"
+#include "limpet/paper/trials.hpp"
 #include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {
 namespace {
 
-constexpr const char* kSpeedKey = "pendulum.impact_speed_m_s";
 constexpr const char* kDockSpeedKey = "guidance.dock_speed_m_s";
-
-/// Flies a campaign of the data anew into campaigns/NAME/results.sqlite.
-campaign::CampaignSummary fly_trials(const char* name, const Study& study,
-                                     std::vector<double>* press_N = nullptr) {
-    const campaign::Campaign campaign = campaign::load_campaign(name);
-    const std::filesystem::path folder = study.folder / "campaigns" / campaign.name;
-    std::filesystem::remove(campaign::Results::file_of(folder));
-    std::filesystem::create_directories(folder);
-    campaign::Results results = begin_results(campaign, folder, false);
-    run_campaign(results, study.jobs, {.on_progress = {}, .stop = study.stop});
-    study.say("");  // some of its runs may be missing
-    if (press_N != nullptr) {
-        SQLite::Statement select(
-            results.database(),
-            fmt::format("SELECT avg(impact_force_N) FROM runs GROUP BY {0} ORDER BY {0}",
-                        campaign::sql_name(kSpeedKey)));
-        while (select.executeStep()) {
-            press_N->push_back(select.getColumn(0).getDouble());
-        }
-    }
-    return summarise(results);
-}
 
 /// Share of the spots that a press seals, by the surface's spread alone.
 double expected_share(double press_N) {
@@ -47,49 +21,6 @@ double expected_share(double press_N) {
     const double z =
         std::log(press_N / surface.seal_threshold_median_N) / surface.seal_threshold_sigma;
     return 0.5 * std::erfc(-z / std::sqrt(2.0));
-}
-
-const campaign::KeySummary& by_speed(const campaign::CampaignSummary& summary,
-                                     const char* speed = kSpeedKey) {
-    for (const campaign::KeySummary& key : summary.keys) {
-        if (key.key == speed) {
-            return key;
-        }
-    }
-    throw InternalError(summary.name + " does not vary " + speed);
-}
-
-/// Successes and runs from one speed to another, both included.
-campaign::Proportion between(const std::vector<campaign::Group>& groups, double from_m_s,
-                             double to_m_s) {
-    constexpr double kRounding_m_s = 1e-6;
-    campaign::Proportion sum{};
-    for (const campaign::Group& group : groups) {
-        if (group.middle() > from_m_s - kRounding_m_s && group.middle() < to_m_s + kRounding_m_s) {
-            sum.successes += group.proportion.successes;
-            sum.runs += group.proportion.runs;
-        }
-    }
-    require(sum.runs > 0, "trials at these speeds");
-    return sum;
-}
-
-/// By how much the paper's best speeds, 1.0 to 1.2 m/s, attach more often than any slower one:
-/// lower end of the 95 % interval of that difference (normal).
-double best_margin_low(const std::vector<campaign::Group>& groups) {
-    const auto variance = [](const campaign::Proportion& p) {
-        return p.probability() * (1.0 - p.probability()) / p.runs;
-    };
-    const campaign::Proportion best = between(groups, 1.0, 1.2);
-    campaign::Proportion slower{};
-    for (const campaign::Group& group : groups) {
-        if (group.middle() < 0.95 &&
-            (slower.runs == 0 || group.proportion.probability() > slower.probability())) {
-            slower = group.proportion;
-        }
-    }
-    return best.probability() - slower.probability() -
-           campaign::kNormal95 * std::sqrt(variance(best) + variance(slower));
 }
 
 /// Share of the failures whose reason is the force.
@@ -141,7 +72,7 @@ void measure_jump(const campaign::KeySummary& key, const std::vector<double>& pr
 draw::ChartSeries shares(const campaign::KeySummary& key, const char* name) {
     draw::ChartSeries points{.name = name, .mark = draw::ChartSeries::Mark::points};
     for (const campaign::Group& group : key.groups) {
-        const campaign::Interval interval = group.proportion.interval();
+        const statistics::Interval interval = group.proportion.interval();
         points.add(group.middle(), group.proportion.probability(), {interval.low, interval.high});
     }
     return points;
@@ -156,11 +87,9 @@ draw::ChartPanel trials_panel(const campaign::KeySummary& key, const std::vector
                                        {.at = 1.0, .label = "best"},
                                        {.at = 1.2, .label = ""}},
                            .y_range = draw::Range{0.0, 1.05}};
-    if (key.fit) {
-        panel.series.push_back({.name = "logistic fit"});
-        panel.series.back().add({key.groups.front().low, key.groups.back().high}, 120,
-                                [&](double speed) { return key.fit->probability(speed); });
-    }
+    panel.series.push_back({.name = "fitted: a logistic of ln speed with a plateau"});
+    panel.series.back().add({key.groups.front().low, key.groups.back().high}, 120,
+                            [&](double speed) { return key.curve->probability(speed); });
     panel.series.push_back(
         {.name = "the threshold's spread alone", .mark = draw::ChartSeries::Mark::dashes});
     for (std::size_t i = 0; i < key.groups.size(); ++i) {
@@ -175,8 +104,8 @@ void study_beyond_fig3(Study& study) {
     const campaign::CampaignSummary swung = fly_trials("fig3_beyond", study);
     const campaign::CampaignSummary flown = fly_trials("impact_speed", study);
     const campaign::KeySummary &pendulum = by_speed(swung),
-                               &docking = by_speed(flown, kDockSpeedKey);
-    study.evidence.set("fig3.best_margin_low", best_margin_low(pendulum.groups));
+                               &docking = success_by(flown, kDockSpeedKey);
+    study.evidence.set("fig3.best_margin_low", best_margin(pendulum.groups).low);
     study.evidence.set("fig3.pendulum_1_2", between(pendulum.groups, 1.2, 1.2).probability());
     study.evidence.set("fig3.pendulum_1_8", between(pendulum.groups, 1.8, 1.8).probability());
     study.evidence.set("fig3.docking_fast", between(docking.groups, 1.4, 2.0).probability());
@@ -193,6 +122,70 @@ void study_beyond_fig3(Study& study) {
                     .y_range = draw::Range{0.0, 1.05}}}});
 }
 
+/// The curve through the trials: what it says and how far it may be trusted.
+void measure_curve(const campaign::KeySummary& key, Evidence& evidence) {
+    require(key.fit && key.fit_goodness && key.curve && key.curve->half,
+            "trials that are fitted, half of which attach somewhere");
+    const statistics::SuccessCurve& curve = *key.curve;
+    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
+             {"fig3.half_m_s", *curve.half},
+             {"fig3.half_low_m_s", curve.half_95.low},
+             {"fig3.half_high_m_s", curve.half_95.high},
+             {"fig3.plateau", curve.plateau},
+             {"fig3.plateau_low", curve.plateau_95.low},
+             {"fig3.plateau_high", curve.plateau_95.high},
+             {"fig3.curve_chi2", curve.goodness.chi2},
+             {"fig3.curve_degrees", curve.goodness.degrees},
+             {"fig3.curve_p", curve.goodness.p},
+             {"fig3.logistic_chi2", key.fit_goodness->chi2},
+             {"fig3.logistic_degrees", key.fit_goodness->degrees},
+             {"fig3.logistic_p", key.fit_goodness->p}}) {
+        evidence.set(name, value);
+    }
+}
+
+/// The same trials with what is assumed of them moved: how much of the curve the paper's text pins
+/// down, which is what all of them share that keep it.
+void study_assumptions(Study& study) {
+    constexpr double kDock_m_s = 1.1, kAsNone = 0.05;  // as the statements accept
+    const std::vector<MovedTrials> all = fly_moved_trials(study, study.quick ? 23 : 100);
+    TableRows rows;
+    double low_m_s = kNaN, high_m_s = kNaN, never = 0.0, kept = 0.0;
+    double least = kNaN, most = kNaN;
+    for (const MovedTrials& moved : all) {
+        const std::vector<campaign::Group>& groups = by_speed(moved.summary).groups;
+        const statistics::SuccessCurve& curve = moved.curve;
+        const double slow = between(groups, 0.0, 0.35).probability();
+        const bool keeps = slow <= kAsNone && best_margin(groups).mean >= 0.0;
+        const double docked = curve.probability(kDock_m_s);
+        low_m_s = curve.half ? std::fmin(low_m_s, *curve.half) : low_m_s;
+        high_m_s = curve.half ? std::fmax(high_m_s, *curve.half) : high_m_s;
+        least = std::fmin(least, docked);
+        most = std::fmax(most, docked);
+        never += curve.half ? 0.0 : 1.0;
+        kept += keeps && &moved != &all.front() ? 1.0 : 0.0;
+        rows.push_back(
+            {moved.assumption, number_or(curve.half.value_or(kNaN), "not reached"),
+             curve.half ? report::Quantity(draw::Range{curve.half_95.low, curve.half_95.high})
+                        : report::Quantity("-"),
+             curve.plateau, docked, slow, best_margin(groups).mean, keeps ? "yes" : "no"});
+    }
+    study.table("fig3-assumptions", rows);
+    const Evidence& own = study.evidence;
+    study.evidence.set("fig3.half_assumed_low_m_s", low_m_s);
+    study.evidence.set("fig3.half_assumed_high_m_s", high_m_s);
+    study.evidence.set("fig3.half_never", never);
+    study.evidence.set("fig3.docked_assumed_low", least);
+    study.evidence.set("fig3.docked_assumed_high", most);
+    study.evidence.set("fig3.moved", static_cast<double>(all.size()) - 1.0);
+    study.evidence.set("fig3.limits_kept", kept);
+    study.note(fmt::format(
+        "Fig. 3 is fitted: half attach at {:.2f} m/s, {:.2f} to {:.2f} by sampling, {:.2f} to "
+        "{:.2f} by what is assumed, and with {:.0f} of {:.0f} assumptions moved never",
+        own.get("fig3.half_m_s"), own.get("fig3.half_low_m_s"), own.get("fig3.half_high_m_s"),
+        low_m_s, high_m_s, never, own.get("fig3.moved")));
+}
+
 void study_trials(Study& study) {
     study.say("pendulum trials");
     std::vector<double> press_N;
@@ -200,6 +193,7 @@ void study_trials(Study& study) {
     const campaign::CampaignSummary alike = fly_trials("fig3_without_spread", study);
     measure_trials(trials, alike, study.evidence);
     measure_jump(by_speed(trials), press_N, study.evidence);
+    measure_curve(by_speed(trials), study.evidence);
     study.draw("fig3",
                {.subtitle = fmt::format("{} trials of a vehicle on a 5 m pendulum, porous concrete",
                                         trials.finished),
@@ -211,6 +205,7 @@ void study_trials(Study& study) {
                         failure.proportion.probability()});
     }
     study.table("fig3-failures", rows);
+    study_assumptions(study);
     study_beyond_fig3(study);
 }
 
@@ -220,11 +215,39 @@ StudyPart trials_part() {
     return {"trials",
             "Attachment against impact speed: Fig. 3",
             study_trials,
-            {"fig3.runs", "fig3.success_below_0_4", "fig3.best_margin_low", "fig3.pendulum_1_2",
-             "fig3.pendulum_1_8", "fig3.docking_fast", "fig3.failed_for_force_share",
-             "fig3.mixed_speeds_less", "fig3.share_0_7", "fig3.share_0_8", "fig3.expected_0_7",
-             "fig3.expected_0_8", "fig3.trials_a_speed"},
-            {"fig3", "fig3-failures", "fig3-beyond"}};
+            {"fig3.runs",
+             "fig3.success_below_0_4",
+             "fig3.best_margin_low",
+             "fig3.pendulum_1_2",
+             "fig3.pendulum_1_8",
+             "fig3.docking_fast",
+             "fig3.failed_for_force_share",
+             "fig3.mixed_speeds_less",
+             "fig3.share_0_7",
+             "fig3.share_0_8",
+             "fig3.expected_0_7",
+             "fig3.expected_0_8",
+             "fig3.trials_a_speed",
+             "fig3.half_m_s",
+             "fig3.half_low_m_s",
+             "fig3.half_high_m_s",
+             "fig3.plateau",
+             "fig3.plateau_low",
+             "fig3.plateau_high",
+             "fig3.curve_chi2",
+             "fig3.curve_degrees",
+             "fig3.curve_p",
+             "fig3.logistic_chi2",
+             "fig3.logistic_degrees",
+             "fig3.logistic_p",
+             "fig3.half_assumed_low_m_s",
+             "fig3.half_assumed_high_m_s",
+             "fig3.half_never",
+             "fig3.docked_assumed_low",
+             "fig3.docked_assumed_high",
+             "fig3.moved",
+             "fig3.limits_kept"},
+            {"fig3", "fig3-assumptions", "fig3-failures", "fig3-beyond"}};
 }
 
 }  // namespace limpet::paper

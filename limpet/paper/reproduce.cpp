@@ -133,6 +133,7 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
         chosen[i].run(study);
         page.sections.push_back(study.section(chosen[i]));
     }
+    result.notes = study.notes;
     study.say("");  // the last part's runs may have been stopped
     // After the pictures: it is long.
     page.sections.push_back({.id = "claims",

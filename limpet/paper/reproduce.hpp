@@ -34,6 +34,7 @@ struct Reproduction {
     report::Page page = {};
     std::vector<std::filesystem::path> files = {};  ///< index.html, results.json
     Evidence counts = {};                           ///< of the statements: kSummaryCounts
+    std::vector<std::string> notes = {};            ///< what no claim says, a line each
 };
 
 /// Names of the parts that `only` takes, with their titles.

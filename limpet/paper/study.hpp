@@ -30,6 +30,7 @@ struct Study {
 
     std::vector<PaperStatement> statements = {};
     Evidence evidence = {};
+    std::vector<std::string> notes = {};  ///< a line each, for a terminal
     std::vector<report::PageBlock> blocks =
         {};  ///< of the part that runs, from data/paper/page.yaml
 
@@ -44,6 +45,8 @@ struct Study {
     /// program was built without that page.
     void show(const std::string& flight) const;
     void table(const std::string& id, TableRows rows);
+    /// A line that goes with the claims on a terminal.
+    void note(std::string line) { notes.push_back(std::move(line)); }
     /// Reports what comes next; before that it stops where `stop` is set.
     /// @throws Interrupted
     void say(const std::string& what) const;

@@ -35,7 +35,7 @@ std::string found_text(const RareSummary& summary) {
     const double p = result.levels.empty() ? 1.0 : result.probability();
     switch (result.ending) {
         case RareEnding::estimated: {
-            const campaign::Interval interval = result.interval();
+            const statistics::Interval interval = result.interval();
             return fmt::format(
                 "probability {:.3g}, 95 % {:.2g}..{:.2g}, coefficient of variation {:.2f}\n"
                 "{} flights; by brute force about {:.2g} for an interval as narrow",
@@ -172,7 +172,7 @@ std::string rare_json(const RareSummary& summary) {
     }
     RareJson curve = RareJson::array();
     for (const RarePlace& place : result.curve) {
-        const campaign::Interval interval = place.interval();
+        const statistics::Interval interval = place.interval();
         curve.push_back({{"value", summary.event.value_at(place.fall)},
                          {"probability", place.probability},
                          {"low", interval.low},
@@ -216,7 +216,7 @@ std::vector<std::filesystem::path> draw_rare(const RareSummary& summary,
     draw::ChartSeries high{.mark = draw::ChartSeries::Mark::dashes,
                            .colour = draw::colours::kOrange};
     for (const RarePlace& place : result.curve) {
-        const campaign::Interval interval = place.interval();
+        const statistics::Interval interval = place.interval();
         const double x = event.value_at(place.fall);
         middle.add(x, place.probability);
         low.add(x, interval.low);

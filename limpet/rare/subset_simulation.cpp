@@ -328,8 +328,8 @@ private:
     double acceptance_ = kNaN;
 };
 
-campaign::Interval lognormal_interval(double probability, double variation2,
-                                      double quantile = campaign::kNormal95) {
+statistics::Interval lognormal_interval(double probability, double variation2,
+                                        double quantile = statistics::kNormal95) {
     const double factor = std::exp(quantile * std::sqrt(std::log1p(variation2)));
     return {probability / factor, std::min(1.0, probability * factor)};
 }
@@ -344,7 +344,7 @@ double RarePoint::distance() const {
     return std::sqrt(squares);
 }
 
-campaign::Interval RarePlace::interval() const {
+statistics::Interval RarePlace::interval() const {
     return lognormal_interval(probability, variation2);
 }
 
@@ -364,7 +364,7 @@ double SubsetResult::variation2() const {
     return std::max(sum, lineage_variation2);
 }
 
-campaign::Interval SubsetResult::interval() const {
+statistics::Interval SubsetResult::interval() const {
     const boost::math::students_t t(std::max(1.0, lineages - 1.0));
     return lognormal_interval(probability(), variation2(), boost::math::quantile(t, 0.975));
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "limpet/campaign/sampling.hpp"
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
 
 namespace limpet::rare {
 
@@ -71,7 +71,7 @@ struct RarePlace {
     double probability = 0.0;
     double variation2 = 0.0;
 
-    [[nodiscard]] campaign::Interval interval() const;
+    [[nodiscard]] statistics::Interval interval() const;
 };
 
 struct SubsetResult {
@@ -92,7 +92,7 @@ struct SubsetResult {
     [[nodiscard]] double variation2() const;
     /// 95 %, of a lognormal with that coefficient, which is known from so many lineages only:
     /// Student's t with as many degrees of freedom less one.
-    [[nodiscard]] campaign::Interval interval() const;
+    [[nodiscard]] statistics::Interval interval() const;
     /// Independent runs that would give an interval as narrow.
     [[nodiscard]] double brute_force_runs() const;
 };

@@ -78,7 +78,7 @@ Correlation controlled(const Correlation& one, const Correlation& none) {
 
 struct WithInterval {
     double value;
-    campaign::Interval interval;
+    statistics::Interval interval;
 };
 
 /// In Fisher's z.
@@ -90,7 +90,7 @@ WithInterval with_interval(const Correlation& correlation) {
     constexpr double kMost = 1.0 - 1e-12;
     const double r = std::clamp(correlation.value, -kMost, kMost);
     const double z = std::atanh(r);
-    const double half = campaign::kNormal95 *
+    const double half = statistics::kNormal95 *
                         std::sqrt(dot(correlation.influence, correlation.influence)) /
                         static_cast<double>(correlation.influence.size()) / (1.0 - r * r);
     return {r, {std::tanh(z - half), std::tanh(z + half)}};

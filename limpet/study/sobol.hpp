@@ -4,16 +4,16 @@
 #include <cstddef>
 #include <vector>
 
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
 
 namespace limpet::study {
 
 /// How much of a figure's variance an input brings about, with 95 % intervals.
 struct SobolIndex {
     double first = 0.0;  ///< by itself: what would go if it were known
-    campaign::Interval first_95;
+    statistics::Interval first_95;
     double total = 0.0;  ///< with all that it does together with others: what would stay without it
-    campaign::Interval total_95;
+    statistics::Interval total_95;
 };
 
 /// A figure at the points of a pick-freeze design: two independent samples, and for each input the

@@ -80,7 +80,7 @@ struct StudyFound {
     std::uint32_t samples = 0;  ///< flown
     std::uint32_t used = 0;     ///< of them
     bool is_event = false;
-    campaign::Proportion events;       ///< among A and B, which are independent
+    statistics::Proportion events;     ///< among A and B, which are independent
     std::vector<double> values;        ///< of A and B, sorted
     std::vector<StudiedInput> inputs;  ///< empty where too few samples have the figure
     [[nodiscard]] double mean() const;

@@ -35,7 +35,7 @@ std::vector<double> values_of(campaign::Results& results, const StudyFigure& fig
     return values;
 }
 
-StudyJson interval_json(double value, const campaign::Interval& interval) {
+StudyJson interval_json(double value, const statistics::Interval& interval) {
     return {{"value", value}, {"low", interval.low}, {"high", interval.high}};  // null: not finite
 }
 
@@ -49,14 +49,14 @@ std::vector<StudiedInput> by_share(std::vector<StudiedInput> inputs) {
 
 std::string quantiles_text(const StudyFound& found) {
     return fmt::format("mean {:.4g}, deviation {:.3g}; 5 % {:.4g}, median {:.4g}, 95 % {:.4g}\n",
-                       found.mean(), found.deviation(), campaign::quantile(found.values, 0.05),
-                       campaign::quantile(found.values, 0.5),
-                       campaign::quantile(found.values, 0.95));
+                       found.mean(), found.deviation(), statistics::quantile(found.values, 0.05),
+                       statistics::quantile(found.values, 0.5),
+                       statistics::quantile(found.values, 0.95));
 }
 
 std::string events_text(const StudyFound& found) {
     constexpr std::uint32_t kSeldom = 10;
-    const campaign::Interval interval = found.events.interval();
+    const statistics::Interval interval = found.events.interval();
     std::string text =
         fmt::format("probability {:.4g}, 95 % {:.3g}..{:.3g}: {} of {} independent flights\n",
                     found.events.probability(), interval.low, interval.high, found.events.successes,
@@ -180,7 +180,7 @@ std::string study_json(const StudyFound& found) {
         json["mean"] = found.mean();
         json["deviation"] = found.deviation();
         for (const double share : {0.05, 0.5, 0.95}) {
-            json["quantiles"][fmt::format("{}", share)] = campaign::quantile(found.values, share);
+            json["quantiles"][fmt::format("{}", share)] = statistics::quantile(found.values, share);
         }
     }
     StudyJson inputs = StudyJson::array();
@@ -204,7 +204,7 @@ std::vector<std::filesystem::path> draw_study(const StudyFound& found,
     draw::ChartSeries total{.name = "with others", .mark = draw::ChartSeries::Mark::points};
     for (const StudiedInput& input : by_share(found.inputs)) {
         const SobolIndex& index = input.index;
-        for (const campaign::Interval& interval : {index.first_95, index.total_95}) {
+        for (const statistics::Interval& interval : {index.first_95, index.total_95}) {
             shares.low = std::min(shares.low, interval.low);
             shares.high = std::max(shares.high, interval.high);
         }

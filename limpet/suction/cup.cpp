@@ -139,7 +139,11 @@ const ParameterTable<CupParameters>& cup_table() {
     using C = CupParameters;
     static const ParameterTable<C> table = {
         {"attachment_pressure_Pa", "Pa", 1000.0, 101325.0, &C::attachment_pressure_Pa,
-         "the cup counts as attached below it (Fig. 6)", "assumed: equal to P_land, paper IV"},
+         "the phase is called attached below it (Fig. 6), a mount's hold begins and a pump may "
+         "rest; "
+         "decides no flight's outcome: guidance lands by land_pressure_Pa, the seal pulls from its "
+         "first vacuum on",
+         "assumed: equal to P_land, paper IV"},
         {"valve_fitted", "switch", 0.0, 1.0, &C::valve_fitted, "a solenoid valve breaks the vacuum",
          "paper, section V.B (proposed)"},
         {"seal_creep_1_s", "1/s", 0.0, 10.0, &C::seal_creep_1_s,

@@ -35,7 +35,7 @@ namespace limpet::suction {
 struct CupParameters {
     LipParameters lip;
     PressureParameters pressure;
-    double attachment_pressure_Pa = 88000.0;  ///< below it the cup counts as attached
+    double attachment_pressure_Pa = 88000.0;  ///< below it the phase is attached; see cup_table()
     bool valve_fitted = false;                ///< a solenoid valve breaks the vacuum
     double seal_creep_1_s = 0.0;              ///< growth of a seal's leak by time
     double seal_wear_1_N = 0.0;               ///< and by what the pull on it rises and falls

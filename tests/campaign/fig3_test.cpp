@@ -11,7 +11,9 @@
 #include "../support/suction.hpp"
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/campaign/workers.hpp"
+#include "limpet/core/parallel.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/statistics/success_curve.hpp"
 
 namespace limpet::campaign {
 namespace {
@@ -95,6 +97,54 @@ TEST(Fig3, MisalignmentCostsSomeOfThosePressedHardEnough) {
     }
     EXPECT_LT(successes, pressed);
     EXPECT_GT(successes, 0.85 * pressed);
+}
+
+std::optional<statistics::Goodness> goodness_of_logistic(
+    const std::vector<statistics::Trials>& trials) {
+    const auto fit = statistics::fit_logistic(trials);
+    return fit ? statistics::goodness_of(
+                     trials, [&](double speed) { return fit->probability(speed); }, 2)
+               : std::nullopt;
+}
+
+/// The curve that smooths the trials describes them: with a plateau, along the logarithm. The plain
+/// logistic does not, neither of the paper's number of trials nor of four times as many.
+TEST(Fig3, ThePlateauDescribesTheTrialsAndTheLogisticDoesNot) {
+    std::vector<statistics::Trials> few;
+    for (const auto& [speed_m_s, bin] : bins()) {
+        few.push_back(
+            {speed_m_s,
+             {static_cast<std::uint32_t>(bin.successes), static_cast<std::uint32_t>(bin.trials)}});
+    }
+    Campaign campaign = load_campaign("fig3", LIMPET_SOURCE_DIR "/data");
+    constexpr std::uint32_t kRepeats = 100;
+    const auto speeds = static_cast<std::uint32_t>(few.size());
+    campaign.runs = speeds * kRepeats;
+    std::vector<RunRow> rows(campaign.runs);
+    for_each_index(rows.size(), 2, [&](std::size_t run) {
+        rows[run] = fly_run(campaign, static_cast<std::uint32_t>(run));
+    });
+    std::map<double, statistics::Proportion> by_speed;
+    for (const RunRow& row : rows) {
+        statistics::Proportion& sum = by_speed[std::get<double>(row.sample[0])];
+        ++sum.runs;
+        sum.successes += row.outcome == "perched" ? 1 : 0;
+    }
+    std::vector<statistics::Trials> many;
+    for (const auto& [speed_m_s, proportion] : by_speed) {
+        many.push_back({speed_m_s, proportion});
+    }
+    ASSERT_EQ(many.size(), few.size());
+    for (const std::vector<statistics::Trials>* trials : {&few, &many}) {
+        const auto curve = statistics::fit_success_curve(*trials);
+        ASSERT_TRUE(curve && curve->half);
+        EXPECT_FALSE(curve->goodness.rejected()) << curve->goodness.p;
+        EXPECT_LT(curve->plateau_95.high - curve->plateau_95.low, 0.5);
+        const auto plain = goodness_of_logistic(*trials);
+        ASSERT_TRUE(plain);
+        EXPECT_TRUE(plain->rejected()) << plain->p;
+    }
+    EXPECT_LT(goodness_of_logistic(many)->p, goodness_of_logistic(few)->p);
 }
 
 }  // namespace

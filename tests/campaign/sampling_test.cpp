@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
 
 namespace limpet::campaign {
 namespace {
@@ -68,15 +68,15 @@ TEST(Sampling, NormalHasItsMeanAndSigma) {
     const auto values = numbers(key_of(Spread::normal, -1.0, 0.5));
     EXPECT_NEAR(mean_of(values), -1.0, 4.0 * 0.5 / std::sqrt(kDraws));
     EXPECT_NEAR(deviation_of(values), 0.5, 0.012);
-    EXPECT_NEAR(quantile(values, 0.975), -1.0 + kNormal95 * 0.5, 0.03);
+    EXPECT_NEAR(statistics::quantile(values, 0.975), -1.0 + statistics::kNormal95 * 0.5, 0.03);
 }
 
 TEST(Sampling, LognormalHasItsMedianAndSigmaOfTheLogarithm) {
     const auto values = numbers(key_of(Spread::lognormal, 28.0, 0.3));
     EXPECT_GT(values.front(), 0.0);
-    EXPECT_NEAR(quantile(values, 0.5), 28.0, 0.4);
+    EXPECT_NEAR(statistics::quantile(values, 0.5), 28.0, 0.4);
     // e^(0.3 * 1.0) up: the 84.13 % quantile.
-    EXPECT_NEAR(quantile(values, 0.841345), 28.0 * std::exp(0.3), 0.7);
+    EXPECT_NEAR(statistics::quantile(values, 0.841345), 28.0 * std::exp(0.3), 0.7);
 }
 
 TEST(Sampling, BoundsCutTheTailsOff) {

@@ -66,6 +66,20 @@ TEST(KickedSwing, GrowsAsTheLinearisedLoopSays) {
     }
 }
 
+/// With this gain the free vehicle leans farther before the wall than in still air; on the cup its
+/// swing is the linearised loop's all the same, unless guidance takes that lean for wind.
+TEST(KickedSwing, AVehicleThatLeansBeforeTheWallIsNotTakenToFlyInWind) {
+    const Overrides gain = {"autopilot.MC_PITCH_P=8"};
+    const double linear_1_s = stability::linear_swing("slow_motors_metal", gain).value().growth_1_s;
+    EXPECT_GT(linear_1_s, 0.2);
+    EXPECT_NEAR(kicked_swing("slow_motors_metal", gain).value().growth_1_s, linear_1_s, 0.05);
+    const double windy_1_s =
+        kicked_swing("slow_motors_metal", joined(gain, {"guidance.calm_lean_deg=1.5"}))
+            .value()
+            .growth_1_s;
+    EXPECT_LT(windy_1_s, -1.0);
+}
+
 TEST(KickedSwing, AltitudeHoldKillsIt) {
     const KickedSwing swing =
         kicked_swing("slow_motors_metal", {"guidance.altitude_hold=1"}).value();

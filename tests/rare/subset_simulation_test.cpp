@@ -63,7 +63,7 @@ Repeats repeat(const Fall& fall, std::size_t inputs, double probability, int tim
     for (int i = 0; i < times; ++i) {
         const SubsetResult result = search(fall, inputs, 100 + i, level_runs);
         EXPECT_EQ(result.ending, RareEnding::estimated);
-        const campaign::Interval interval = result.interval();
+        const statistics::Interval interval = result.interval();
         repeats.covered += interval.low <= probability && probability <= interval.high ? 1.0 : 0.0;
         const double ratio = result.probability() / probability;
         repeats.bias += ratio;
@@ -119,8 +119,8 @@ TEST(SubsetSimulation, AgreesWithBruteForce) {
         point.noise = {{static_cast<std::uint64_t>(i), 1.0}};
         events += fall(point) <= 0.0 ? 1 : 0;
     }
-    const campaign::Interval brute =
-        campaign::Proportion{static_cast<std::uint32_t>(events), kBrute}.interval();
+    const statistics::Interval brute =
+        statistics::Proportion{static_cast<std::uint32_t>(events), kBrute}.interval();
     EXPECT_GT(events, 100);
     const SubsetResult result = search(fall, 2, 5, 2000);
     EXPECT_LT(result.interval().low, brute.high);
@@ -213,7 +213,7 @@ TEST(SubsetSimulation, AFigureThatDoesNotLeadThereWidensTheInterval) {
             });
         ASSERT_EQ(result.ending, RareEnding::estimated);
         EXPECT_LT(result.lineages, 15.0);
-        const campaign::Interval interval = result.interval();
+        const statistics::Interval interval = result.interval();
         covered +=
             interval.low < normal_probability(-2.75) && normal_probability(-2.75) < interval.high;
     }

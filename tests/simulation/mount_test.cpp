@@ -100,6 +100,37 @@ TEST(PendulumTrial, SaysWhyItFailed) {
     }
 }
 
+/// Neither where the trials of Fig. 3 end nor a flight: the seal pulls from its first vacuum on,
+/// and guidance lands by another pressure.
+TEST(AttachmentPressure, DecidesNoOutcome) {
+    const auto at = [](const char* pressure_Pa) {
+        return std::string("suction.attachment_pressure_Pa=") + pressure_Pa;
+    };
+    int perched = 0, failed = 0;
+    for (const double speed_m_s : {0.5, 0.7, 0.9, 1.1}) {
+        for (int seed = 1; seed <= 6; ++seed) {
+            const auto ended_at = [&](const char* pressure_Pa) {
+                return trace(model_of("pendulum_concrete",
+                                      swing_at(speed_m_s,
+                                               {"seed=" + std::to_string(seed), at(pressure_Pa)})))
+                    .result.outcome;
+            };
+            const Outcome outcome = ended_at("88000");
+            EXPECT_EQ(ended_at("75000"), outcome) << speed_m_s << " " << seed;
+            EXPECT_EQ(ended_at("100000"), outcome) << speed_m_s << " " << seed;
+            ++(outcome == Outcome::perched ? perched : failed);
+        }
+    }
+    EXPECT_GT(perched, 4);
+    EXPECT_GT(failed, 4);
+    for (const char* pressure_Pa : {"75000", "100000"}) {
+        const Trace flight = trace(model_of("perch_concrete", {at(pressure_Pa)}));
+        EXPECT_EQ(flight.result.outcome, Outcome::released) << pressure_Pa;
+        EXPECT_EQ(flight.first(EventName::landing_started),
+                  flown("perch_concrete").first(EventName::landing_started));
+    }
+}
+
 TEST(PendulumTrial, PerchesAndHoldsForHalfASecond) {
     const Trace& trial = flown("pendulum_concrete");
     EXPECT_EQ(trial.result.outcome, Outcome::perched);

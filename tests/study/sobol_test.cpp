@@ -97,7 +97,7 @@ PickFreeze flown(const Function& function, std::size_t inputs, std::size_t sampl
     return all;
 }
 
-bool holds(const campaign::Interval& interval, double truth) {
+bool holds(const statistics::Interval& interval, double truth) {
     return interval.low <= truth && truth <= interval.high;
 }
 

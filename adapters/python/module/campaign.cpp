@@ -11,10 +11,10 @@
 #include <future>
 
 #include "air.hpp"
-#include "limpet/campaign/statistics.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/folder_lock.hpp"
+#include "limpet/statistics/shares.hpp"
 #include "module.hpp"
 
 namespace limpet::python {
@@ -61,8 +61,8 @@ std::array<double, 3> share(std::uint32_t successes, std::uint32_t runs) {
     if (successes > runs) {
         throw InputError(fmt::format("{} successes of {} runs", successes, runs));
     }
-    const campaign::Proportion proportion{.successes = successes, .runs = runs};
-    const campaign::Interval interval = proportion.interval();
+    const statistics::Proportion proportion{.successes = successes, .runs = runs};
+    const statistics::Interval interval = proportion.interval();
     return {proportion.probability(), interval.low, interval.high};
 }
 

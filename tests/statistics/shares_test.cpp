@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 namespace {
 
 TEST(Wilson, HandCalculations) {
@@ -23,6 +23,15 @@ TEST(Wilson, HandCalculations) {
     const Interval all = Proportion{20, 20}.interval();
     EXPECT_EQ(all.high, 1.0);
     EXPECT_NEAR(all.low, 1.0 - none.high, 1e-12);
+}
+
+TEST(Wilson, OfAnEffectiveNumberIsThatOfAsManyRuns) {
+    EXPECT_EQ(wilson(0.8, 10.0).low, (Proportion{8, 10}.interval().low));
+    const Interval part = wilson(0.8, 10.5);
+    EXPECT_GT(part.low, wilson(0.8, 10.0).low);
+    EXPECT_LT(part.low, wilson(0.8, 11.0).low);
+    EXPECT_EQ(wilson(1.0, 7.3).high, 1.0);
+    EXPECT_EQ(wilson(0.5, 0.0).high, 1.0);
 }
 
 TEST(Wilson, WithoutRunsNothingIsKnown) {
@@ -158,4 +167,4 @@ TEST(Quantile, OfNumbersThatPassByIsThatOfAllOfThem) {
 }
 
 }  // namespace
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 
 /// Two-sided 95 % of a standard normal.
 inline constexpr double kNormal95 = 1.959963984540054;
@@ -17,6 +17,11 @@ struct Interval {
     double high = 0.0;
 };
 
+/// Wilson's score interval, 95 %, of a share of so many runs, which may be an effective number of
+/// weighted ones; 0..1 without any.
+/// Source: Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
+[[nodiscard]] Interval wilson(double share, double runs);
+
 /// A share of runs with its 95 % interval.
 struct Proportion {
     std::uint32_t successes = 0;
@@ -24,10 +29,12 @@ struct Proportion {
 
     /// NaN without runs.
     [[nodiscard]] double probability() const;
-    /// Wilson's score interval: honest at 0, at 1 and with few runs; 0..1 without any.
-    /// Source: Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
+    /// Wilson's: honest at 0, at 1 and with few runs.
     [[nodiscard]] Interval interval() const;
 };
+
+/// 1 / (1 + exp(-eta))
+[[nodiscard]] double logistic(double eta);
 
 /// P(success) = 1 / (1 + exp(-(intercept + slope x))).
 struct LogisticFit {
@@ -84,4 +91,4 @@ private:
 [[nodiscard]] std::vector<double> quantiles(std::size_t count, const std::vector<double>& shares,
                                             const std::function<double()>& next);
 
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics

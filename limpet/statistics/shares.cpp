@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/statistics.hpp"
+#include "limpet/statistics/shares.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,16 +9,12 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 
-namespace limpet::campaign {
+namespace limpet::statistics {
 namespace {
 
 constexpr int kMostIterations = 50;
 constexpr double kConverged = 1e-10;
 constexpr double kSteepest = 50.0;  ///< per standard deviation of x: a step, not a slope
-
-double logistic(double eta) {
-    return 1.0 / (1.0 + std::exp(-eta));
-}
 
 /// Sums of Newton's step for the two coefficients.
 struct Newton {
@@ -76,22 +72,28 @@ bool can_be_fitted(const std::vector<Trials>& trials) {
 
 }  // namespace
 
+double logistic(double eta) {
+    return 1.0 / (1.0 + std::exp(-eta));
+}
+
 double Proportion::probability() const {
     return runs == 0 ? kNaN : static_cast<double>(successes) / static_cast<double>(runs);
 }
 
-Interval Proportion::interval() const {
-    if (runs == 0) {
+Interval wilson(double share, double runs) {
+    if (!(runs > 0.0)) {
         return {0.0, 1.0};
     }
-    const double n = runs;
-    const double p = probability();
     const double zz = kNormal95 * kNormal95;
-    const double centre = (p + zz / (2.0 * n)) / (1.0 + zz / n);
-    const double half =
-        kNormal95 / (1.0 + zz / n) * std::sqrt(p * (1.0 - p) / n + zz / (4.0 * n * n));
+    const double centre = (share + zz / (2.0 * runs)) / (1.0 + zz / runs);
+    const double half = kNormal95 / (1.0 + zz / runs) *
+                        std::sqrt(share * (1.0 - share) / runs + zz / (4.0 * runs * runs));
     // At the ends the formula is 0 and 1 but for rounding.
-    return {successes == 0 ? 0.0 : centre - half, successes == runs ? 1.0 : centre + half};
+    return {share <= 0.0 ? 0.0 : centre - half, share >= 1.0 ? 1.0 : centre + half};
+}
+
+Interval Proportion::interval() const {
+    return wilson(runs == 0 ? 0.0 : probability(), runs);
 }
 
 double LogisticFit::probability(double x) const {
@@ -182,4 +184,4 @@ std::vector<double> quantiles(std::size_t count, const std::vector<double>& shar
     return found;
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::statistics
