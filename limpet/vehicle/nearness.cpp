@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace limpet::vehicle {
 namespace {
@@ -74,6 +75,15 @@ RotorList<double> thrust_gains(const NearnessModel& model, const AirframeNumbers
         gains[i] += upright * (gain - 1.0);
     }
     return gains;
+}
+
+double mean_thrust_gain(const NearnessModel& model, const AirframeNumbers& airframe,
+                        const Kinematics& base) {
+    if (!model.acts()) {
+        return 1.0;
+    }
+    const RotorList<double> gains = thrust_gains(model, airframe, base);
+    return std::accumulate(gains.begin(), gains.end(), 0.0) / static_cast<double>(gains.size());
 }
 
 AirframeNumbers lifting_by(AirframeNumbers airframe, const RotorList<double>& gains) {

@@ -47,6 +47,9 @@ struct NearnessModel {
 [[nodiscard]] RotorList<double> thrust_gains(const NearnessModel& model,
                                              const AirframeNumbers& airframe,
                                              const Kinematics& base);
+/// @return mean over the rotors, 1 in free air
+[[nodiscard]] double mean_thrust_gain(const NearnessModel& model, const AirframeNumbers& airframe,
+                                      const Kinematics& base);
 /// The same vehicle, each rotor with so much of its thrust.
 [[nodiscard]] AirframeNumbers lifting_by(AirframeNumbers airframe, const RotorList<double>& gains);
 
