@@ -12,6 +12,7 @@
 #include "limpet/models/drawing.hpp"
 #include "limpet/models/finish.hpp"
 #include "limpet/models/model_writer.hpp"
+#include "limpet/simulation/consistency.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -133,7 +134,22 @@ void FlightLog::tick(const FlightModel& model, const FlightState& state,
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
+    if (!brief_) {
+        record_consistency(model, state);
+    }
     moment(model, moment_of(state));
+}
+
+void FlightLog::record_consistency(const FlightModel& model, const FlightState& state) {
+    constexpr double kEvery_s = 0.04 - 1e-9;
+    if (before_s_ - consistency_s_ >= kEvery_s) {
+        if (const auto seen = consistency_of(model, state, before_, before_s_)) {
+            recorder_.consistency(*seen);
+            consistency_s_ = before_s_;
+        }
+    }
+    before_ = state.truth.base;
+    before_s_ = state.truth.time_s;
 }
 
 void FlightLog::record_payload(std::size_t channel, const Truth& truth) {

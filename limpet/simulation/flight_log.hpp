@@ -67,8 +67,14 @@ private:
     void record_payload(std::size_t channel, const Truth& truth);
 
     record::Recorder recorder_;
+    /// Of the built-in filter, whose estimate is of the tick before.
+    void record_consistency(const FlightModel& model, const FlightState& state);
+
     Readings last_;
     bool brief_;
+    Kinematics before_;  ///< the base at the end of the tick before, which began this one
+    double before_s_ = -1.0;
+    double consistency_s_ = -1.0;  ///< the last one recorded
 };
 
 }  // namespace limpet::simulation

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/consistency.hpp"
 #include "limpet/simulation/flight.hpp"
 
 /// Does the filter know how wrong it is in whole flights, as flown? e' P^-1 e of an honest filter
@@ -16,42 +16,61 @@
 namespace limpet::simulation {
 namespace {
 
-/// Truth less belief, as the filter's error is: attitude as a rotation vector in B.
-Eigen::Matrix<double, 15, 1> error_of(const FlightState& state, const Kinematics& truth) {
-    const autopilot::EstimatorState& filter = state.autopilot.estimator;
-    const autopilot::Navigation& belief = filter.navigation;
-    const auto& imu = state.sensors.units<sensors::ImuSensor>()[0].state;
-    Eigen::Matrix<double, 15, 1> error;
-    error << truth.p_WF_m - belief.p_WB_m, truth.v_WF_W_m_s - belief.v_WB_m_s,
-        rotation_vector_from_quaternion(belief.q_WB.conjugate() * truth.q_WF),
-        imu.gyro_turn_on_rad_s + imu.gyro_bias_rad_s - belief.gyro_bias_rad_s,
-        imu.accel_turn_on_m_s2 + imu.accel_bias_m_s2 - belief.accelerometer_bias_m_s2;
-    return error;
-}
+/// Means over flights, each of mean 1 where the filter is honest, and of squared errors in metres
+/// beside what it says of them.
+struct Honesty {
+    Consistency mean{.nees = 0.0, .nees_of = {}, .nis_of = {}};
+    Vector3 squared_m2 = Vector3::Zero();
+    Vector3 stated_m2 = Vector3::Zero();
+};
 
-double mean_nees(const std::vector<std::string>& overrides) {
-    constexpr std::uint32_t kFlights = 3;
-    double sum = 0.0, count = 0.0;
-    const auto model =
-        build_model(scenario::load_scenario("perch_concrete", {.overrides = overrides}));
-    for (std::uint32_t run = 0; run < kFlights; ++run) {
+Honesty honesty(const std::string& scenario, const std::vector<std::string>& overrides,
+                std::uint32_t flights) {
+    Honesty sum;
+    double count = 0.0;
+    const auto model = build_model(scenario::load_scenario(scenario, {.overrides = overrides}));
+    for (std::uint32_t run = 0; run < flights; ++run) {
         Flight flight(model, run);
         while (!flight.ended()) {
             const Kinematics truth = flight.state().truth.base;
             const double time_s = seconds(flight.state().tick);
             flight.tick();
             const FlightState& state = flight.state();
-            const autopilot::EstimatorState& filter = state.autopilot.estimator;
-            // At the instants to which it has just brought its covariance, once it has settled.
-            if (time_s > 2.0 && filter.time_s == time_s && filter.covariance_s == time_s) {
-                const auto error = error_of(state, truth);
-                sum += error.dot(filter.covariance.llt().solve(error));
+            // Once it has settled.
+            const auto seen =
+                time_s > 2.0 ? consistency_of(*model, state, truth, time_s) : std::nullopt;
+            if (seen) {
+                sum.mean.nees += seen->nees;
+                for (std::size_t k = 0; k < 5; ++k) {
+                    sum.mean.nees_of[k] += seen->nees_of[k];
+                }
+                for (std::size_t k = 0; k < 6; ++k) {
+                    sum.mean.nis_of[k] += seen->nis_of[k];
+                }
+                sum.squared_m2 += filter_error(state, truth).head<3>().cwiseAbs2();
+                for (int axis = 0; axis < 3; ++axis) {
+                    sum.stated_m2[axis] +=
+                        state.autopilot.estimate.variance[static_cast<std::size_t>(axis)];
+                }
                 ++count;
             }
         }
     }
     EXPECT_GT(count, 100.0);
-    return sum / count;
+    sum.mean.nees /= count;
+    for (double& one : sum.mean.nees_of) {
+        one /= count;
+    }
+    for (double& one : sum.mean.nis_of) {
+        one /= count;
+    }
+    sum.squared_m2 /= count;
+    sum.stated_m2 /= count;
+    return sum;
+}
+
+double mean_nees(const std::vector<std::string>& overrides) {
+    return autopilot::kErrors * honesty("perch_concrete", overrides, 3).mean.nees;
 }
 
 TEST(Nees, AsFlownTheFilterIsHumblerThanItNeedBe) {
