@@ -47,4 +47,17 @@ std::optional<Consistency> consistency_of(const FlightModel& model, const Flight
     return consistency;
 }
 
+std::optional<Consistency> ConsistencyWatch::next(const FlightModel& model,
+                                                  const FlightState& state) {
+    constexpr double kEvery_s = 0.04 - 1e-9;
+    std::optional<Consistency> now;
+    if (before_s_ - last_s_ >= kEvery_s) {
+        now = consistency_of(model, state, before_, before_s_);
+        last_s_ = now ? before_s_ : last_s_;
+    }
+    before_ = state.truth.base;
+    before_s_ = state.truth.time_s;
+    return now;
+}
+
 }  // namespace limpet::simulation

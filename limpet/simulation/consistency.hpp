@@ -20,4 +20,18 @@ namespace limpet::simulation {
                                                         const FlightState& state,
                                                         const Kinematics& truth, double time_s);
 
+/// Of a flight as it goes on, some 25 times a second: the filter's state after a tick is that of
+/// the instant at which the tick began.
+class ConsistencyWatch {
+public:
+    /// After every tick.
+    [[nodiscard]] std::optional<Consistency> next(const FlightModel& model,
+                                                  const FlightState& state);
+
+private:
+    Kinematics before_;
+    double before_s_ = -1.0;
+    double last_s_ = -1.0;
+};
+
 }  // namespace limpet::simulation

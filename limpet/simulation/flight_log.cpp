@@ -12,7 +12,6 @@
 #include "limpet/models/drawing.hpp"
 #include "limpet/models/finish.hpp"
 #include "limpet/models/model_writer.hpp"
-#include "limpet/simulation/consistency.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -118,7 +117,8 @@ Moment moment_of(const FlightState& state) {
                .setpoint = state.guidance.setpoint,
                .state = state.guidance.state,
                .attempt = state.guidance.attempt,
-               .command = state.command};
+               .command = state.command,
+               .consistency = {}};
     for_each_type(sensors::Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;
         if constexpr (!sensors::kIsRead<Sensor>) {
@@ -134,22 +134,9 @@ void FlightLog::tick(const FlightModel& model, const FlightState& state,
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
-    if (!brief_) {
-        record_consistency(model, state);
-    }
-    moment(model, moment_of(state));
-}
-
-void FlightLog::record_consistency(const FlightModel& model, const FlightState& state) {
-    constexpr double kEvery_s = 0.04 - 1e-9;
-    if (before_s_ - consistency_s_ >= kEvery_s) {
-        if (const auto seen = consistency_of(model, state, before_, before_s_)) {
-            recorder_.consistency(*seen);
-            consistency_s_ = before_s_;
-        }
-    }
-    before_ = state.truth.base;
-    before_s_ = state.truth.time_s;
+    Moment now = moment_of(state);
+    now.consistency = honesty_.next(model, state);
+    moment(model, now);
 }
 
 void FlightLog::record_payload(std::size_t channel, const Truth& truth) {
@@ -166,6 +153,9 @@ void FlightLog::moment(const FlightModel& model, const Moment& now) {
         return;
     }
     recorder_.new_readings(now.readings, last_);
+    if (now.consistency) {
+        recorder_.consistency(*now.consistency);
+    }
     std::size_t channel = 0;
     for_each_type(sensors::Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;

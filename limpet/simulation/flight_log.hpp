@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limpet/record/recorder.hpp"
+#include "limpet/simulation/consistency.hpp"
 #include "limpet/simulation/flight.hpp"
 
 namespace limpet::simulation {
@@ -38,6 +39,7 @@ struct Moment {
     guidance::PerchingState state = {};
     int attempt = 0;
     RotorCommand command;
+    std::optional<Consistency> consistency = {};  ///< of the tick before, when it is time for one
 };
 [[nodiscard]] Moment moment_of(const FlightState& state);
 
@@ -67,14 +69,9 @@ private:
     void record_payload(std::size_t channel, const Truth& truth);
 
     record::Recorder recorder_;
-    /// Of the built-in filter, whose estimate is of the tick before.
-    void record_consistency(const FlightModel& model, const FlightState& state);
-
     Readings last_;
     bool brief_;
-    Kinematics before_;  ///< the base at the end of the tick before, which began this one
-    double before_s_ = -1.0;
-    double consistency_s_ = -1.0;  ///< the last one recorded
+    ConsistencyWatch honesty_;
 };
 
 }  // namespace limpet::simulation
