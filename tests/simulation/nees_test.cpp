@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "../support/files.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/consistency.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/flight_log.hpp"
-#include "../support/files.hpp"
 
 /// Does the filter know how wrong it is in whole flights, as flown, by motion capture and by GPS?
 /// e' P^-1 e of an honest filter of 15 states has mean 15. Parameters as PX4 ships them are larger
