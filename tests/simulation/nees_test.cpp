@@ -7,6 +7,7 @@
 
 #include "../support/files.hpp"
 #include "limpet/record/recording.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/consistency.hpp"
 #include "limpet/simulation/flight.hpp"
