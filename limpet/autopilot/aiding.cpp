@@ -30,6 +30,9 @@ Vector3 in_present_B(const Instant& at, const Vector3& then_B) {
 void open_up(Fusion& fusion, int block, double deviation) {
     for (int error = block; error < block + 3; ++error) {
         reset_error(fusion.covariance, error, square(deviation));
+        if (fusion.followed != nullptr) {
+            fusion.followed->row(error).setZero();
+        }
     }
 }
 
@@ -49,6 +52,19 @@ void know_from_then(Covariance& covariance, const Measurement& measurement) {
     }
 }
 
+/// Of the row that is furthest off.
+double worst_nis(const Fusion& fusion, const Measurement& measurement) {
+    double worst = 0.0;
+    for (int i = 0; i < measurement.rows; ++i) {
+        const auto row = static_cast<std::size_t>(i);
+        const JacobianRow& h = measurement.jacobian[row];
+        const double innovation = measurement.innovation[row] - h.dot(fusion.correction);
+        worst = std::max(worst, square(innovation) /
+                                    (h.variance(fusion.covariance) + measurement.variance[row]));
+    }
+    return worst;
+}
+
 /// Takes the innovation as the error.
 /// @param astray_s  for how long it has not fitted
 void believe(Fusion& fusion, const Measurement& measurement, double astray_s, int block) {
@@ -60,6 +76,12 @@ void believe(Fusion& fusion, const Measurement& measurement, double astray_s, in
             if (measurement.jacobian[row][error] == 1.0) {
                 fusion.correction[error] = measurement.innovation[row];
                 reset_error(fusion.covariance, error, measurement.variance[row]);
+                if (fusion.followed != nullptr) {
+                    fusion.followed->row(error).setZero();
+                    if (fusion.wanders) {
+                        (*fusion.followed)(error, error - block) = -1.0;
+                    }
+                }
                 observed = true;
             }
         }
@@ -142,9 +164,18 @@ Measurement measure_field(const Instant& at, const Vector3& field_B_gauss,
 
 void fuse(Fusion& fusion, Aiding& aiding, const Measurement& measurement, double stamp_s,
           double gate, int block) {
+    aiding.nis_s = stamp_s;
     if (passes(fusion.covariance, fusion.correction, measurement, gate)) {
-        update(fusion.covariance, fusion.correction, measurement);
+        Gains gains;
+        const bool follows = fusion.followed != nullptr;
+        aiding.nis =
+            update(fusion.covariance, fusion.correction, measurement, follows ? &gains : nullptr) /
+            std::max(1, measurement.rows);
+        if (follows) {
+            update(*fusion.followed, measurement, gains, fusion.wanders);
+        }
     } else {
+        aiding.nis = worst_nis(fusion, measurement);
         if (aiding.rejected++ == 0) {
             aiding.rejected_since_s = stamp_s;
         }

@@ -32,6 +32,11 @@ Vector3 gps_noise(double horizontal) {
     return {horizontal, horizontal, kGpsVertical * horizontal};
 }
 
+/// Whether a GPS's position, and its wander, is in the filter.
+bool by_gps(const AutopilotParameters& p) {
+    return has(p.EKF2_GPS_CTRL, kHorizontal | kHeight);
+}
+
 std::array<bool, 3> position_axes(int control) {
     return {has(control, kHorizontal), has(control, kHorizontal), has(control, kHeight)};
 }
@@ -57,15 +62,18 @@ void bring_covariance_up(const AutopilotParameters& p, EstimatorState& state) {
     const Matrix3 R_to = to.q_WB.toRotationMatrix();
     const Vector3 force_gain_W =
         to.v_WB_m_s - from.v_WB_m_s - Vector3(0.0, 0.0, kGravity_m_s2 * dt_s);
-    propagate(state.covariance,
-              {.dt_s = dt_s,
-               .velocity_by_attitude = -skew(force_gain_W) * R_from,
-               .velocity_by_bias = -0.5 * dt_s * (R_from + R_to),
-               .turn = R_to.transpose() * R_from},
+    const Transition transition{.dt_s = dt_s,
+                                .velocity_by_attitude = -skew(force_gain_W) * R_from,
+                                .velocity_by_bias = -0.5 * dt_s * (R_from + R_to),
+                                .turn = R_to.transpose() * R_from};
+    propagate(state.covariance, transition,
               {.gyro_rad_s_rtHz = kRootPrediction_rts * p.EKF2_GYR_NOISE,
                .accelerometer_m_s2_rtHz = kRootPrediction_rts * p.EKF2_ACC_NOISE,
                .gyro_bias_rad_s2_rtHz = kRootPrediction_rts * p.EKF2_GYR_B_NOISE,
                .accelerometer_bias_m_s3_rtHz = kRootPrediction_rts * p.EKF2_ACC_B_NOISE});
+    if (by_gps(p)) {
+        propagate(state.followed, transition);
+    }
     state.covariance_s = state.time_s;
     state.covariance_from = state.navigation;
 }
@@ -119,7 +127,8 @@ void take(const AutopilotParameters& p, EstimatorState& state, double& seen_s,
         return;
     }
     bring_covariance_up(p, state);
-    Fusion fusion{.covariance = state.covariance};
+    Fusion fusion{.covariance = state.covariance,
+                  .followed = by_gps(p) ? &state.followed : nullptr};
     aid(fusion, *at);
     apply(state, fusion.correction);
 }
@@ -136,7 +145,7 @@ void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
                          const Sample<PoseReading>& sample) {
     const double stamp_s = sample.time_s - kMillisecond_s * p.EKF2_EV_DELAY;
     const PoseReading& pose = sample.value;
-    if (sample.newer_than(state.motion_capture_s)) {
+    if (sample.newer_than(state.seen.motion_capture_s)) {
         state.motion_capture_frozen = repeats_itself(state, pose);
         if (!same_pose(pose, state.motion_capture)) {
             state.turned_rad.setZero();
@@ -144,7 +153,7 @@ void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
     }
     const bool usable =
         pose.p_WB_m.allFinite() && pose.q_WB.coeffs().allFinite() && !state.motion_capture_frozen;
-    take(p, state, state.motion_capture_s, sample, stamp_s, usable,
+    take(p, state, state.seen.motion_capture_s, sample, stamp_s, usable,
          [&](Fusion& fusion, const Instant& at) {
              if (is_another_body(at.then.q_WB, pose.q_WB.normalized(),
                                  stamp_s - state.motion_capture_attitude.fused_s)) {
@@ -169,13 +178,15 @@ void take_gps(const AutopilotParameters& p, EstimatorState& state,
               const Sample<GpsReading>& sample) {
     const GpsReading& gps = sample.value;
     const bool finite = gps.p_WB_m.allFinite() && gps.v_WB_m_s.allFinite();
-    take(p, state, state.gps_s, sample, sample.time_s, finite,
+    take(p, state, state.seen.gps_s, sample, sample.time_s, finite,
          [&](Fusion& fusion, const Instant& at) {
-             if (has(p.EKF2_GPS_CTRL, kHorizontal | kHeight)) {
+             if (by_gps(p)) {
+                 fusion.wanders = true;
                  fuse(fusion, state.gps_position,
                       measure_position(at, gps.p_WB_m, gps_noise(p.EKF2_GPS_P_NOISE),
                                        position_axes(p.EKF2_GPS_CTRL)),
                       sample.time_s, p.EKF2_GPS_P_GATE, kPosition);
+                 fusion.wanders = false;
              }
              if (has(p.EKF2_GPS_CTRL, kGpsVelocity)) {
                  fuse(fusion, state.gps_velocity,
@@ -188,7 +199,7 @@ void take_gps(const AutopilotParameters& p, EstimatorState& state,
 void take_barometer(const AutopilotParameters& p, EstimatorState& state,
                     const Sample<BarometerReading>& sample) {
     const Vector3 p_WB_m(0.0, 0.0, -sample.value.altitude_m);
-    take(p, state, state.barometer_s, sample, sample.time_s, p_WB_m.allFinite(),
+    take(p, state, state.seen.barometer_s, sample, sample.time_s, p_WB_m.allFinite(),
          [&](Fusion& fusion, const Instant& at) {
              fuse(fusion, state.barometer,
                   measure_position(at, p_WB_m, Vector3::Constant(p.EKF2_BARO_NOISE),
@@ -202,7 +213,7 @@ void take_magnetometer(const AutopilotParameters& p, EstimatorState& state,
     const Vector3& field_B_gauss = sample.value.field_B_gauss;
     const Vector3 field_W_gauss(p.mag_field_north_gauss, p.mag_field_east_gauss,
                                 p.mag_field_down_gauss);
-    take(p, state, state.magnetometer_s, sample, sample.time_s, field_B_gauss.allFinite(),
+    take(p, state, state.seen.magnetometer_s, sample, sample.time_s, field_B_gauss.allFinite(),
          [&](Fusion& fusion, const Instant& at) {
              fuse(fusion, state.magnetometer,
                   measure_field(at, field_B_gauss, field_W_gauss, p.EKF2_MAG_NOISE), sample.time_s,
@@ -252,6 +263,14 @@ void update_estimator(const AutopilotParameters& parameters, EstimatorState& sta
     }
 }
 
+Covariance stated_covariance(const AutopilotParameters& parameters, const EstimatorState& state) {
+    if (!by_gps(parameters)) {
+        return state.covariance;
+    }
+    const Followed wanders = state.followed * gps_noise(parameters.EKF2_GPS_P_NOISE).asDiagonal();
+    return state.covariance + wanders * wanders.transpose();
+}
+
 Estimate estimate_from(const AutopilotParameters& parameters, const EstimatorState& state) {
     const Navigation& n = state.navigation;
     Estimate estimate;
@@ -265,6 +284,15 @@ Estimate estimate_from(const AutopilotParameters& parameters, const EstimatorSta
     estimate.accelerometer_bias_m_s2 = n.accelerometer_bias_m_s2;
     for (int i = 0; i < kErrors; ++i) {
         estimate.variance[static_cast<std::size_t>(i)] = state.covariance(i, i);
+    }
+    if (by_gps(parameters)) {
+        const ErrorVector wanders =
+            (state.followed * gps_noise(parameters.EKF2_GPS_P_NOISE).asDiagonal())
+                .rowwise()
+                .squaredNorm();
+        for (int i = 0; i < kErrors; ++i) {
+            estimate.variance[static_cast<std::size_t>(i)] += wanders[i];
+        }
     }
     const double oldest_s = state.time_s - kMicrosecond_s * parameters.EKF2_NOAID_TOUT;
     estimate.valid =

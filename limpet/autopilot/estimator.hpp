@@ -27,6 +27,8 @@ struct Aiding {
     double fused_s = -std::numeric_limits<double>::infinity();  ///< stamp of the last one used
     double rejected_since_s = 0.0;  ///< stamp of the first one rejected since
     int rejected = 0;               ///< how many since
+    double nis = 0.0;               ///< of the last one, used or not, over its rows: of mean 1
+    double nis_s = -std::numeric_limits<double>::infinity();  ///< its stamp
 };
 
 /// The moment of a late measurement, as the present knows it.
@@ -57,6 +59,8 @@ struct Instant {
 struct Fusion {
     Covariance& covariance;
     ErrorVector correction = ErrorVector::Zero();
+    Followed* followed = nullptr;  ///< of a GPS's wander; null: there is none in the filter
+    bool wanders = false;          ///< that GPS's position comes next
 };
 
 /// Uses a measurement that passes the gate, rejects it otherwise. When rejection goes on for longer
@@ -78,14 +82,18 @@ struct EstimatorState {
     Navigation navigation;
     ImuReading imu;  ///< the last sample, biases in it
     ImuHistory history;
-    Covariance covariance = Covariance::Zero();
-    double covariance_s = 0.0;   ///< when the covariance is of
-    Navigation covariance_from;  ///< the state then
+    Covariance covariance = Covariance::Zero();  ///< as if all noise were white
+    Followed followed = Followed::Zero();        ///< how far the errors go with a GPS's wander
+    double covariance_s = 0.0;                   ///< when both are of
+    Navigation covariance_from;                  ///< the state then
 
-    double motion_capture_s = kNever;  ///< stamps of the last samples seen
-    double gps_s = kNever;
-    double barometer_s = kNever;
-    double magnetometer_s = kNever;
+    /// Stamps of the last samples seen.
+    struct Seen {
+        double motion_capture_s = kNever;
+        double gps_s = kNever;
+        double barometer_s = kNever;
+        double magnetometer_s = kNever;
+    } seen;
     PoseReading motion_capture;  ///< the last one seen
     bool motion_capture_frozen = false;
     Vector3 turned_rad = Vector3::Zero();  ///< by the gyros since this pose first came, in the last
@@ -109,6 +117,11 @@ struct EstimatorState {
 /// nothing.
 void update_estimator(const AutopilotParameters& parameters, EstimatorState& state,
                       const Readings& readings);
+
+/// Of the errors as they are: with a GPS's position its wander on top, which is taken to be all of
+/// EKF2_GPS_P_NOISE, of much longer correlation than the filter's memory (some seconds).
+[[nodiscard]] Covariance stated_covariance(const AutopilotParameters& parameters,
+                                           const EstimatorState& state);
 
 /// Valid while position and attitude have been aided within EKF2_NOAID_TOUT.
 [[nodiscard]] Estimate estimate_from(const AutopilotParameters& parameters,

@@ -169,8 +169,9 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] bool passes(const Covariance& covariance,
     return true;
 }
 
-LIMPET_FOR_MACHINES [[gnu::flatten]] void update(Covariance& covariance, ErrorVector& correction,
-                                                 const Measurement& measurement) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] double update(Covariance& covariance, ErrorVector& correction,
+                                                   const Measurement& measurement, Gains* gains) {
+    double nis = 0.0;
     std::array<ErrorVector, 3> scaled;
     const auto rows = static_cast<std::size_t>(measurement.rows);
     for (std::size_t row = 0; row < rows; ++row) {
@@ -182,13 +183,39 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void update(Covariance& covariance, ErrorVe
         const double deviation = std::sqrt(h.dot(Ph) + measurement.variance[row]);
         scaled[row] = Ph / deviation;
         const double innovation = measurement.innovation[row] - h.dot(correction);
-        correction += scaled[row] * (innovation / deviation);
+        const double normalised = innovation / deviation;
+        correction += scaled[row] * normalised;
+        nis += normalised * normalised;
+        if (gains != nullptr) {
+            (*gains)[row] = scaled[row] / deviation;
+        }
     }
     switch (rows) {
         case 0: break;
         case 1: subtract_squares<1>(covariance, scaled); break;
         case 2: subtract_squares<2>(covariance, scaled); break;
         default: subtract_squares<3>(covariance, scaled); break;
+    }
+    return nis;
+}
+
+void propagate(Followed& followed, const Transition& f) {
+    const Followed before = followed;
+    const auto block = [&before](int error) { return before.middleRows<3>(error); };
+    followed.middleRows<3>(kPosition) += f.dt_s * block(kVelocity);
+    followed.middleRows<3>(kVelocity) +=
+        f.velocity_by_attitude * block(kAttitude) + f.velocity_by_bias * block(kAccelerometerBias);
+    followed.middleRows<3>(kAttitude) = f.turn * block(kAttitude) - f.dt_s * block(kGyroBias);
+}
+
+void update(Followed& followed, const Measurement& measurement, const Gains& gains, bool wanders) {
+    for (std::size_t row = 0; row < static_cast<std::size_t>(measurement.rows); ++row) {
+        const JacobianRow& h = measurement.jacobian[row];
+        Vector3 seen;
+        for (int axis = 0; axis < 3; ++axis) {
+            seen[axis] = h.dot(followed.col(axis)) + (wanders ? h[kPosition + axis] : 0.0);
+        }
+        followed -= gains[row] * seen.transpose();
     }
 }
 

@@ -89,8 +89,25 @@ void add_row(Measurement& measurement, const JacobianRow& jacobian, double innov
 [[nodiscard]] bool passes(const Covariance& covariance, const ErrorVector& correction,
                           const Measurement& measurement, double gate);
 
+/// Gains of a measurement's rows, each after those before it.
+using Gains = std::array<ErrorVector, 3>;
+
 /// Sequential scalar updates. Adds to `correction`, whose errors the covariance is that of.
-void update(Covariance& covariance, ErrorVector& correction, const Measurement& measurement);
+/// @param gains  filled for who follows the errors by something else too; null: not asked for
+/// @return the innovation squared over its covariance (NIS), of mean `rows` where all is as assumed
+double update(Covariance& covariance, ErrorVector& correction, const Measurement& measurement,
+              Gains* gains = nullptr);
+
+/// What a measurement's error has in common from sample to sample, as a GPS's slow wander, is no
+/// noise to average: the filter follows it. Its gains stay those for white noise; how far the
+/// errors then go with a unit of the wander along each axis of W is known (Schmidt's consider
+/// filter).
+/// Source: Schmidt, "Application of state-space methods to navigation problems", Advances in
+/// Control Systems 3, 1966.
+using Followed = Eigen::Matrix<double, kErrors, 3>;
+void propagate(Followed& followed, const Transition& transition);
+/// @param wanders  whether the wander is in this measurement, of a position
+void update(Followed& followed, const Measurement& measurement, const Gains& gains, bool wanders);
 
 /// After a correction of the attitude its error is about the corrected frame: P = G P G' with
 /// G = I - [correction]x / 2. Matters when a start is far off.

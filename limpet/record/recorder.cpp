@@ -155,6 +155,17 @@ void Recorder::barometer(const Sample<BarometerReading>& sample) {
     pressure(Topic::barometer, sample.time_s, kBaseFrame, sample.value.pressure_Pa);
 }
 
+void Recorder::magnetometer(const Sample<MagnetometerReading>& sample) {
+    constexpr double kTesla_gauss = 1e-4;
+    constexpr std::array<double, 9> kUnknown = {};
+    write(Topic::magnetometer, sample.time_s, kBaseFrame,
+          flu_from_frd(kTesla_gauss * sample.value.field_B_gauss), kUnknown);
+}
+
+void Recorder::gps(const Sample<GpsReading>& sample) {
+    write(Topic::gps, sample.time_s, sample.value.p_WB_m, sample.value.v_WB_m_s);
+}
+
 void Recorder::battery(const Sample<BatteryReading>& sample) {
     constexpr std::uint8_t kDischarging = 2, kHealthUnknown = 0, kLithiumPolymer = 3;
     constexpr bool kPresent = true;
@@ -182,6 +193,8 @@ void Recorder::new_readings(const Readings& readings, Readings& last) {
     when_new(readings.cup_pressure, last.cup_pressure, &Recorder::cup_pressure);
     when_new(readings.motion_capture, last.motion_capture, &Recorder::motion_capture);
     when_new(readings.barometer, last.barometer, &Recorder::barometer);
+    when_new(readings.magnetometer, last.magnetometer, &Recorder::magnetometer);
+    when_new(readings.gps, last.gps, &Recorder::gps);
     when_new(readings.battery, last.battery, &Recorder::battery);
 }
 
@@ -241,6 +254,11 @@ void Recorder::estimate(const Estimate& estimate) {
         write(Topic::estimate_deviation, estimate.time_s, deviation[0], deviation[1], deviation[2],
               deviation[3], deviation[4]);
     }
+}
+
+void Recorder::consistency(const Consistency& consistency) {
+    write(Topic::estimate_consistency, consistency.time_s, consistency.nees, consistency.nees_of,
+          consistency.nis_of);
 }
 
 void Recorder::setpoint(double time_s, const Setpoint& setpoint) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "limpet/core/rotor_list.hpp"
+#include "limpet/core/signals/consistency.hpp"
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/event.hpp"
 #include "limpet/core/signals/readings.hpp"
@@ -78,6 +79,8 @@ public:
     void cup_pressure(const Sample<PressureReading>& sample);
     void motion_capture(const Sample<PoseReading>& sample);
     void barometer(const Sample<BarometerReading>& sample);
+    void magnetometer(const Sample<MagnetometerReading>& sample);
+    void gps(const Sample<GpsReading>& sample);
     void battery(const Sample<BatteryReading>& sample);
     /// All of these whose sample is newer than in `last`, which then holds them.
     void new_readings(const Readings& readings, Readings& last);
@@ -95,6 +98,7 @@ public:
     /// Arrows, beams and path, if there is a scene.
     void scene(const Truth& truth, const Readings& readings, const Setpoint& setpoint);
     void estimate(const Estimate& estimate);
+    void consistency(const Consistency& consistency);
     void setpoint(double time_s, const Setpoint& setpoint);
     void guidance(double time_s, std::string_view state, int attempt);
     void rotor_command(double time_s, const RotorCommand& command);

@@ -16,6 +16,8 @@ enum class Topic : std::size_t {
     cup_pressure,
     motion_capture,
     barometer,
+    magnetometer,
+    gps,
     battery,
     truth_pose,
     truth_twist,
@@ -25,6 +27,7 @@ enum class Topic : std::size_t {
     estimate_pose,
     estimate_twist,
     estimate_deviation,
+    estimate_consistency,
     setpoint,
     guidance,
     rotor_command,
@@ -38,7 +41,7 @@ struct TopicInfo {
 
 /// Types of ROS are in its frames and units, ours north-east-down, forward-right-down, with units
 /// in the names.
-inline constexpr std::array<TopicInfo, 20> kTopics = {{
+inline constexpr std::array<TopicInfo, 23> kTopics = {{
     {"/sensors/imu", "sensor_msgs/msg/Imu"},
     {"/sensors/range_left", "sensor_msgs/msg/Range"},
     {"/sensors/range_right", "sensor_msgs/msg/Range"},
@@ -46,6 +49,8 @@ inline constexpr std::array<TopicInfo, 20> kTopics = {{
     {"/sensors/cup_pressure", "sensor_msgs/msg/FluidPressure"},
     {"/sensors/motion_capture", "geometry_msgs/msg/PoseStamped"},
     {"/sensors/barometer", "sensor_msgs/msg/FluidPressure"},
+    {"/sensors/magnetometer", "sensor_msgs/msg/MagneticField"},
+    {"/sensors/gps", "limpet_msgs/msg/GpsFix"},
     {"/sensors/battery", "sensor_msgs/msg/BatteryState"},
     {"/truth/pose", "geometry_msgs/msg/PoseStamped"},
     {"/truth/twist", "geometry_msgs/msg/TwistStamped"},
@@ -55,6 +60,7 @@ inline constexpr std::array<TopicInfo, 20> kTopics = {{
     {"/estimate/pose", "geometry_msgs/msg/PoseStamped"},
     {"/estimate/twist", "geometry_msgs/msg/TwistStamped"},
     {"/estimate/deviation", "limpet_msgs/msg/EstimateDeviation"},
+    {"/estimate/consistency", "limpet_msgs/msg/EstimateConsistency"},
     {"/setpoint", "limpet_msgs/msg/Setpoint"},
     {"/guidance", "limpet_msgs/msg/GuidanceState"},
     {"/rotor_command", "limpet_msgs/msg/RotorCommand"},

@@ -24,7 +24,7 @@ struct RosUnit {
     std::string_view unit;
 };
 
-constexpr std::array<RosUnit, 24> kRosUnits = {{
+constexpr std::array<RosUnit, 26> kRosUnits = {{
     {"", "header.stamp", "s"},
     {"", "stamp", "s"},
     {"geometry_msgs/msg/PoseStamped", "pose.position.", "m"},
@@ -44,6 +44,8 @@ constexpr std::array<RosUnit, 24> kRosUnits = {{
     {"sensor_msgs/msg/Imu", "angular_velocity_covariance[", "rad2_s2"},
     {"sensor_msgs/msg/Imu", "linear_acceleration.", "m_s2"},
     {"sensor_msgs/msg/Imu", "linear_acceleration_covariance[", "m2_s4"},
+    {"sensor_msgs/msg/MagneticField", "magnetic_field.", "T"},
+    {"sensor_msgs/msg/MagneticField", "magnetic_field_covariance[", "T2"},
     {"sensor_msgs/msg/Range", "field_of_view", "rad"},
     {"sensor_msgs/msg/Range", "min_range", "m"},
     {"sensor_msgs/msg/Range", "max_range", "m"},

@@ -42,7 +42,7 @@ const ParameterTable<SimulationParameters>& simulation_table() {
          "decision 0043: as at an eighth of it; an IMU's interval"},
         {"touch_step_s", "s", 1e-5, kTick_s, &S::touch_step_s,
          "plant step around a touch; divides step_s",
-         "lip and slider peaks within 1 % (decision 0004)"},
+         "peaks within 1 % of the converged ones, leaning and round walls too (decision 0004)"},
         {"record_rate_Hz", "Hz", 1.0, 1000.0, &S::record_rate_Hz,
          "true states in the recording, whole; sensors are recorded as they come",
          "assumed: shows every mode of the vehicle"},

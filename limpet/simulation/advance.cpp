@@ -177,6 +177,10 @@ void see_motion(const FlightModel& model, Truth& truth, const plant::Plant& plan
     }
 }
 
+void see_gap(const FlightModel& model, Truth& truth) {
+    truth.cup_status.gap_m = tangent_frame(model.cup.wall, truth.cup.p_WF_m).gap_m;
+}
+
 LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, FlightState& state,
                                                   plant::Plant& plant, const Stride& stride,
                                                   const RotorList<double>& speeds_rad_s,

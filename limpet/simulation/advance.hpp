@@ -19,4 +19,7 @@ void advance(const FlightModel& model, FlightState& state, plant::Plant& plant,
 /// Where base and cup are now.
 void see_motion(const FlightModel& model, Truth& truth, const plant::Plant& plant);
 
+/// How far the lip is from the wall now: the cup's own status has the gap before its last step.
+void see_gap(const FlightModel& model, Truth& truth);
+
 }  // namespace limpet::simulation

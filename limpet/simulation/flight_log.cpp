@@ -117,7 +117,8 @@ Moment moment_of(const FlightState& state) {
                .setpoint = state.guidance.setpoint,
                .state = state.guidance.state,
                .attempt = state.guidance.attempt,
-               .command = state.command};
+               .command = state.command,
+               .consistency = {}};
     for_each_type(sensors::Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;
         if constexpr (!sensors::kIsRead<Sensor>) {
@@ -133,7 +134,9 @@ void FlightLog::tick(const FlightModel& model, const FlightState& state,
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
-    moment(model, moment_of(state));
+    Moment now = moment_of(state);
+    now.consistency = honesty_.next(model, state);
+    moment(model, now);
 }
 
 void FlightLog::record_payload(std::size_t channel, const Truth& truth) {
@@ -150,6 +153,9 @@ void FlightLog::moment(const FlightModel& model, const Moment& now) {
         return;
     }
     recorder_.new_readings(now.readings, last_);
+    if (now.consistency) {
+        recorder_.consistency(*now.consistency);
+    }
     std::size_t channel = 0;
     for_each_type(sensors::Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limpet/record/recorder.hpp"
+#include "limpet/simulation/consistency.hpp"
 #include "limpet/simulation/flight.hpp"
 
 namespace limpet::simulation {
@@ -38,6 +39,7 @@ struct Moment {
     guidance::PerchingState state = {};
     int attempt = 0;
     RotorCommand command;
+    std::optional<Consistency> consistency = {};  ///< of the tick before, when it is time for one
 };
 [[nodiscard]] Moment moment_of(const FlightState& state);
 
@@ -69,6 +71,7 @@ private:
     record::Recorder recorder_;
     Readings last_;
     bool brief_;
+    ConsistencyWatch honesty_;
 };
 
 }  // namespace limpet::simulation

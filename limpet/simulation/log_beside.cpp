@@ -31,6 +31,7 @@ void LogBeside::tick(const FlightState& state, const guidance::EventList& events
         filling_.events.push_back({filling_.moments.size(), events.events[k]});
     }
     filling_.moments.push_back(moment_of(state));
+    filling_.moments.back().consistency = honesty_.next(*model_, state);
     if (filling_.moments.size() >= kBatch) {
         hand_over();
     }

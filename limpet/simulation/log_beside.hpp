@@ -49,6 +49,7 @@ private:
     FlightLog& log_;
     std::shared_ptr<const FlightModel> model_;
     Batch filling_;
+    ConsistencyWatch honesty_;
     std::mutex mutex_;
     std::condition_variable_any changed_;
     Batch written_;               ///< the thread's while `busy_`

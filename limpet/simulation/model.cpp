@@ -25,16 +25,23 @@ int whole(double value) {
     return static_cast<int>(std::lround(value));
 }
 
+/// What carries the vehicle here, next to ground or ceiling too.
+double trim_command(const FlightModel& model, const Kinematics& base) {
+    return vehicle::hover_command(model.airframe,
+                                  mean_thrust_gain(model.nearness, model.airframe, base));
+}
+
 /// What holds a level vehicle against the mean wind: it has stood in it before the flight begins.
 Vector3 trim_W_m_s2(const FlightModel& model) {
     if (model.mount != vehicle::Mount::free || model.wind.mean_W_m_s.isZero()) {
         return Vector3::Zero();
     }
     Kinematics level;
+    level.p_WF_m = model.start.p_WB_m;
     level.q_WF = quaternion_from_euler({.yaw_rad = model.start.yaw_rad});
-    const vehicle::RotorsState rotors = spinning(model.airframe.rotor, model.airframe.rotors.size(),
-                                                 vehicle::hover_command(model.airframe),
-                                                 vehicle::hover_drive_share(model.airframe));
+    const vehicle::RotorsState rotors =
+        spinning(model.airframe.rotor, model.airframe.rotors.size(), trim_command(model, level),
+                 vehicle::hover_drive_share(model.airframe));
     const Vector3 force_B_N =
         vehicle::rotor_wrench_B(model.airframe, rotors.speed_rad_s, level, model.wind.mean_W_m_s)
             .force_N;
@@ -149,11 +156,18 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     }
     state.rotors = vehicle::standing(rotors);
     state.command.command.resize(rotors);
+    double trim = model.autopilot.vehicle.hover_thrust;
     if (model.mount == vehicle::Mount::free) {
-        const double hover = vehicle::hover_command(airframe);
-        state.rotors =
-            spinning(airframe.rotor, rotors, hover, vehicle::hover_drive_share(airframe));
-        state.command = {.command = RotorList<double>(rotors, hover), .armed = true};
+        trim = trim_command(model, base);
+        state.rotors = spinning(airframe.rotor, rotors, trim, vehicle::hover_drive_share(airframe));
+        state.command = {.command = RotorList<double>(rotors, trim), .armed = true};
+    }
+    state.cup.mean_pressure_Pa = model.cup.parameters.ambient_Pa;
+    state.cup.status.pressure_Pa = model.cup.parameters.ambient_Pa;
+    state.cup.random = model.random(run, Stream::seal);
+    state.truth.cup_status = state.cup.status;
+    if (airframe.has_cup) {
+        see_gap(model, state.truth);
     }
     state.battery = charged(airframe.battery);
     state.truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
@@ -166,6 +180,10 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     estimate.valid = true;
     state.autopilot = autopilot::start(model.autopilot, estimate);
     state.autopilot.position.integral_m_s2 = trim_W;
+    // The autopilot has found out what ground or ceiling add to its rotors.
+    state.autopilot.position.integral_m_s2.z() += kGravity_m_s2 *
+                                                  (model.autopilot.vehicle.hover_thrust - trim) /
+                                                  model.autopilot.parameters.MPC_THR_HOVER;
     state.guidance = start_perching(model.task, estimate, 0.0);
     if (model.mount != vehicle::Mount::free) {
         state.guidance.state = guidance::PerchingState::approaching;
@@ -174,9 +192,6 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     state.sensors = sensors::start(model.sensors, state.truth, model.seed, run, model.noise);
     state.wind = vehicle::start(model.wind, model.random(run, Stream::wind));
     state.wall_air = vehicle::start(model.wall_air, model.random(run, Stream::wall_air));
-    state.cup.mean_pressure_Pa = model.cup.parameters.ambient_Pa;
-    state.cup.status.pressure_Pa = model.cup.parameters.ambient_Pa;
-    state.cup.random = model.random(run, Stream::seal);
     return state;
 }
 

@@ -19,6 +19,9 @@ void see_truth(const FlightModel& model, FlightState& state, const plant::Plant&
     truth.time_s = seconds(state.tick);
     see_motion(model, truth, plant);
     truth.cup_status = state.cup.status;
+    if (model.airframe.has_cup) {
+        see_gap(model, truth);
+    }
     truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
     truth.battery = vehicle::status(model.airframe.battery, state.battery);
     truth.legs_force_W_N = plant.contact_force_W();

@@ -163,6 +163,29 @@ double shorten(Vector6& w, int first, double limit) {
     return demand;
 }
 
+/// What gives way moves its anchor along: spring and damper between lip and anchor bear the limit
+/// together, F = k s + c s', so that the spring comes to hold it alone by exp(-k t / c), not at
+/// once.
+class Slide {
+public:
+    /// @param step_s  0: as it stands, at its end
+    Slide(double stiffness, double damping, double step_s)
+        : stiffness_(stiffness),
+          step_s_(step_s),
+          keeps_(step_s > 0.0 && damping > 0.0 ? std::exp(-stiffness * step_s / damping) : 0.0) {}
+    /// @param rate   of the lip over the step
+    /// @param force  by the wall on it, at the limit
+    /// @return where the anchor is at the step's end
+    [[nodiscard]] double anchor(double anchor, double lip, double rate, double force) const {
+        const double held = -force / stiffness_;
+        const double stretch = held + keeps_ * (lip - anchor - held);
+        return lip + step_s_ * rate - stretch;
+    }
+
+private:
+    double stiffness_, step_s_, keeps_;
+};
+
 /// Beyond which limit a sealed lip is loaded; the gravest first.
 LetGo let_go_of(const LipLoad& load, bool twisted_open) {
     if (load.pull_margin_N < 0.0) {
@@ -286,12 +309,14 @@ LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anch
     }
     Vector6 w = held_wrench(forces, held.change);
     LipDemand demand(w);
+    Vector6 change = held.change;
     if (!demand.fits(limits)) {
         const CupBearer::Response response =
             bearer != nullptr ? bearer->response(motion.R_WT) : CupBearer::Response{};
         const LipDemand wanted = demand;
         demand = give_way(LipStep(forces, response), limits, w);
         held.press_N = response.press_with_N(w);
+        change = response.drift + response.mobility * w;
         if (sealed) {
             demand = wanted;  // it lets go of what it cannot hold
         }
@@ -311,13 +336,16 @@ LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anch
         load.let_go = let_go_of(load, twists);
         return load;
     }
-    // What gives way moves its anchor along, so that the spring alone holds the limit.
+    const double step_s = bearer != nullptr ? bearer->step_s() : 0.0;
     if (load.shear_margin_N < 0.0) {
-        anchor.y_m = motion.y_m + w[1] / lip.shear_stiffness_N_m;
-        anchor.z_m = motion.z_m + w[2] / lip.shear_stiffness_N_m;
+        const Slide slide(lip.shear_stiffness_N_m, lip.shear_damping_N_s_m, step_s);
+        anchor.y_m = slide.anchor(anchor.y_m, motion.y_m, motion.y_rate_m_s + change[1], w[1]);
+        anchor.z_m = slide.anchor(anchor.z_m, motion.z_m, motion.z_rate_m_s + change[2], w[2]);
     }
     if (twists) {
-        anchor.twist_rad = motion.rotation_rad.x() + w[3] / lip.twist_stiffness_N_m_rad;
+        const Slide slide(lip.twist_stiffness_N_m_rad, lip.twist_damping_N_m_s_rad, step_s);
+        anchor.twist_rad = slide.anchor(anchor.twist_rad, motion.rotation_rad.x(),
+                                        motion.rate_rad_s.x() + change[3], w[3]);
     }
     load.let_go = motion.gap_m > 0.0 ? LetGo::lifted : LetGo::no;
     return load;

@@ -13,13 +13,13 @@ namespace {
 
 constexpr double kGasConstantTimesTemperature_m2_s2 = 287.05 * 293.15;  ///< dry air, 20 deg C
 constexpr double kRatioOfHeats = 1.4;
-constexpr double kDischarge = 0.6;          ///< assumed: sharp-edged hole
-constexpr double kLaminarRatio = 0.999;     ///< of pressures, above it orifices are linear
-constexpr double kFriction = 0.03;          ///< assumed: Darcy, smooth hose at Re 1e4
-constexpr double kEndLosses = 1.5;          ///< assumed: sharp inlet 0.5, outlet 1
-constexpr double kHoseLaminar_Pa2 = 1e8;    ///< of P^2 - P_m^2, below it hoses are linear
-constexpr double kLeakReference_N = 100.0;  ///< clamping at which a surface's leak is given
-constexpr double kLipPreload_N = 5.0;       ///< N_0, assumed: the lip's own spring
+constexpr double kDischarge = 0.6;           ///< assumed: sharp-edged hole
+constexpr double kLaminarRatio = 0.999;      ///< of pressures, above it orifices are linear
+constexpr double kViscosity_Pa_s = 1.81e-5;  ///< of air at 20 deg C
+constexpr double kFriction = 0.03;           ///< assumed: Darcy, smooth hose at Re 1e4
+constexpr double kEndLosses = 1.5;           ///< assumed: sharp inlet 0.5, outlet 1
+constexpr double kLeakReference_N = 100.0;   ///< clamping at which a surface's leak is given
+constexpr double kLipPreload_N = 5.0;        ///< N_0, assumed: the lip's own spring
 constexpr double kPiece_s = 1e-3;
 constexpr std::size_t kMostCups = 16;
 
@@ -31,17 +31,42 @@ double flow_function(double ratio) {
     return std::sqrt(2.0 * k / (k - 1.0) * (std::pow(r, 2.0 / k) - std::pow(r, (k + 1.0) / k)));
 }
 
+/// P^2 - P_m^2 that a throughput takes, and its slope.
+struct HoseDrop {
+    double drop_Pa2;
+    double slope_Pa_s_m3;
+};
+HoseDrop hose_drop(const Hose& hose, double flow_Pa_m3_s) {
+    const double laminar2 = hose.laminar_Pa_s_m3 * hose.laminar_Pa_s_m3;
+    const double turbulent = hose.turbulent_s2_m6 * flow_Pa_m3_s;
+    const double sum = laminar2 * laminar2 + std::pow(turbulent, 4);
+    const double friction = std::sqrt(std::sqrt(sum));
+    return {(friction + hose.ends_s2_m6 * flow_Pa_m3_s) * flow_Pa_m3_s,
+            friction * (1.0 + std::pow(turbulent, 4) / sum) + 2.0 * hose.ends_s2_m6 * flow_Pa_m3_s};
+}
+
 /// Flow from cup to manifold, and its slopes; odd and smooth in P^2 - P_m^2.
 struct HoseFlow {
     double flow_Pa_m3_s;
     double by_cup, by_manifold;  ///< slopes [m^3/s]
 };
-HoseFlow hose_flow(double conductance_m3_s, double cup_Pa, double manifold_Pa) {
-    const double x = cup_Pa * cup_Pa - manifold_Pa * manifold_Pa;
-    const double s = x * x + kHoseLaminar_Pa2 * kHoseLaminar_Pa2;
-    const double root = std::sqrt(std::sqrt(s));
-    const double slope = conductance_m3_s * (1.0 - 0.5 * x * x / s) / root;
-    return {conductance_m3_s * x / root, 2.0 * cup_Pa * slope, -2.0 * manifold_Pa * slope};
+HoseFlow hose_flow(const Hose& hose, double cup_Pa, double manifold_Pa) {
+    if (hose.blocked()) {
+        return {0.0, 0.0, 0.0};
+    }
+    const double signed_Pa2 = (cup_Pa - manifold_Pa) * (cup_Pa + manifold_Pa);
+    const double drop_Pa2 = std::abs(signed_Pa2);
+    // The drop is convex in the flow and either limit alone lets more through: Newton's steps come
+    // down to the flow from there.
+    double flow = std::min(drop_Pa2 / hose.laminar_Pa_s_m3,
+                           std::sqrt(drop_Pa2 / (hose.turbulent_s2_m6 + hose.ends_s2_m6)));
+    HoseDrop at = hose_drop(hose, flow);
+    for (int k = 0; k < 20 && at.drop_Pa2 - drop_Pa2 > 1e-14 * drop_Pa2; ++k) {
+        flow -= (at.drop_Pa2 - drop_Pa2) / at.slope_Pa_s_m3;
+        at = hose_drop(hose, flow);
+    }
+    return {std::copysign(flow, signed_Pa2), 2.0 * cup_Pa / at.slope_Pa_s_m3,
+            -2.0 * manifold_Pa / at.slope_Pa_s_m3};
 }
 
 /// What the pump takes, above what the hoses bring; rises with the manifold's pressure.
@@ -56,7 +81,7 @@ Balance balance(const Pump& pump, std::span<const CupAir> cups, std::span<const 
         sum = {pump.speed_m3_s * (manifold_Pa - pump.ultimate_Pa), pump.speed_m3_s};
     }
     for (std::size_t k = 0; k < cups.size(); ++k) {
-        const HoseFlow hose = hose_flow(cups[k].hose_m3_s, pressures[k], manifold_Pa);
+        const HoseFlow hose = hose_flow(cups[k].hose, pressures[k], manifold_Pa);
         sum.excess_Pa_m3_s -= hose.flow_Pa_m3_s;
         sum.slope_m3_s -= hose.by_manifold;
     }
@@ -119,7 +144,7 @@ Linear linear_law(const Pump& pump, std::span<const CupAir> cups,
     law.count = cups.size();
     for (std::size_t k = 0; k < cups.size(); ++k) {
         const Inflow in = inflow(cups[k], pressures_Pa[k]);
-        const HoseFlow hose = hose_flow(cups[k].hose_m3_s, pressures_Pa[k], manifold_Pa);
+        const HoseFlow hose = hose_flow(cups[k].hose, pressures_Pa[k], manifold_Pa);
         law.rate_Pa_s[k] = (in.flow_Pa_m3_s - hose.flow_Pa_m3_s) / cups[k].volume_m3;
         law.own[k] = (in.slope_m3_s - hose.by_cup) / cups[k].volume_m3;
         law.by_manifold[k] = -hose.by_manifold / cups[k].volume_m3;
@@ -224,14 +249,21 @@ double orifice_flow_Pa_m3_s(double area_m2, double upstream_Pa, double downstrea
     return full * area_m2 * upstream_Pa * psi;
 }
 
-double hose_conductance_m3_s(double bore_mm, double length_m) {
+Hose hose_of(double bore_mm, double length_m) {
     const double bore_m = 1e-3 * bore_mm;
     if (bore_m <= 0.0) {
-        return 0.0;
+        return {};
     }
-    return 0.25 * kPi * bore_m * bore_m *
-           std::sqrt(kGasConstantTimesTemperature_m2_s2 /
-                     (kFriction * length_m / bore_m + kEndLosses));
+    const double creeping_m = length_m + 3.0 * kPi / 16.0 * bore_m;
+    const double area_m2 = 0.25 * kPi * bore_m * bore_m;
+    const double head_s2_m6 = 1.0 / (area_m2 * area_m2 * kGasConstantTimesTemperature_m2_s2);
+    return {.laminar_Pa_s_m3 = 256.0 * kViscosity_Pa_s * creeping_m / (kPi * std::pow(bore_m, 4)),
+            .turbulent_s2_m6 = kFriction * length_m / bore_m * head_s2_m6,
+            .ends_s2_m6 = kEndLosses * head_s2_m6};
+}
+
+double hose_flow_Pa_m3_s(const Hose& hose, double cup_Pa, double manifold_Pa) {
+    return hose_flow(hose, cup_Pa, manifold_Pa).flow_Pa_m3_s;
 }
 
 GradedLeak graded_leak(double exponent, double grade) {
@@ -259,7 +291,7 @@ CupAir sealed_cup(const PneumaticParameters& parameters, const Surface& surface,
                   double press_N, bool valve_open) {
     const double valve_m = valve_open ? 1e-3 * parameters.valve_bore_mm : 0.0;
     return {.volume_m3 = 1e-6 * (parameters.cup_volume_cm3 + surface.pore_volume_cm3),
-            .hose_m3_s = hose_conductance_m3_s(parameters.hose_bore_mm, parameters.hose_length_m),
+            .hose = hose_of(parameters.hose_bore_mm, parameters.hose_length_m),
             .leak_100_m3_s = leak_conductance_m3_s(surface, kLeakReference_N),
             .leak_exponent = surface.leak_clamping_exponent,
             .area_m2 = kPi * radius_m * radius_m,
@@ -270,7 +302,7 @@ CupAir sealed_cup(const PneumaticParameters& parameters, const Surface& surface,
 CupAir cup_off_the_wall(const PneumaticParameters& parameters, double time_constant_s) {
     const double volume_m3 = 1e-6 * parameters.cup_volume_cm3;
     return {.volume_m3 = volume_m3,
-            .hose_m3_s = hose_conductance_m3_s(parameters.hose_bore_mm, parameters.hose_length_m),
+            .hose = hose_of(parameters.hose_bore_mm, parameters.hose_length_m),
             .off_wall_m3_s = volume_m3 / time_constant_s};
 }
 

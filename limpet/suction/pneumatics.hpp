@@ -25,7 +25,8 @@ namespace limpet::suction {
 //          pressed; N = (P_atm - P) A + press. Graded over the lip: a moment M about it presses one
 //          side more and the other less, per length as 1 + e cos(theta), e = 2 M / (R (N + N_0))
 //   hole   orifice, choked below 0.53 P_atm
-//   hose   friction and ends: Q = G sqrt(P^2 - P_m^2), turbulent isothermal flow
+//   hose   isothermal: P^2 - P_m^2 = Q ((l)^4 + (t Q)^4)^(1/4) + e Q^2, Poiseuille's l below a
+//          Reynolds number of some 2000 and a turbulent t above it, e lost at the ends
 
 struct PneumaticParameters {
     double pump_speed_L_min = 14.0;     ///< S
@@ -62,9 +63,25 @@ struct GradedLeak {
 /// Source: compressible orifice, discharge coefficient 0.6; linear within 0.1 % of equal pressures.
 [[nodiscard]] double orifice_flow_Pa_m3_s(double area_m2, double upstream_Pa, double downstream_Pa);
 
-/// @return G of a hose, its friction factor 0.03 and 1.5 dynamic pressures lost at its ends [m^3/s]
-/// Source: isothermal pipe flow (Weymouth); both factors assumed: smooth hose, sharp ends.
-[[nodiscard]] double hose_conductance_m3_s(double bore_mm, double length_m);
+/// What a hose takes of P^2 - P_m^2 for a throughput Q: see the top of this file.
+struct Hose {
+    double laminar_Pa_s_m3 = 0.0;  ///< l; 0: blocked
+    double turbulent_s2_m6 = 0.0;  ///< t
+    double ends_s2_m6 = 0.0;       ///< e
+    [[nodiscard]] bool blocked() const { return laminar_Pa_s_m3 <= 0.0; }
+};
+
+/// l is Poiseuille's, the hose longer by 3 pi / 16 of its bore, so that without a length it is
+/// Sampson's orifice; t has a Darcy factor of 0.03, where the two meet at Re 2133; e is 1.5 dynamic
+/// pressures.
+/// @param bore_mm   0: blocked
+/// @param length_m  0: an orifice
+/// Source: isothermal pipe flow (Hagen-Poiseuille; Weymouth); Sampson 1891 with Dagan, Weinbaum,
+/// Pfeffer 1982 for the length; air at 20 deg C; 0.03 and 1.5 are assumed: smooth hose, sharp ends.
+[[nodiscard]] Hose hose_of(double bore_mm, double length_m);
+
+/// @return throughput from cup to manifold, < 0 the other way [Pa m^3/s]
+[[nodiscard]] double hose_flow_Pa_m3_s(const Hose& hose, double cup_Pa, double manifold_Pa);
 
 /// The pump, as strong as it is now.
 struct Pump {
@@ -77,7 +94,7 @@ struct Pump {
 /// What lets air into one cup and out of it, over one step.
 struct CupAir {
     double volume_m3 = 0.0;
-    double hose_m3_s = 0.0;      ///< G; 0: blocked
+    Hose hose;                   ///< blocked by default
     double leak_100_m3_s = 0.0;  ///< C_100
     double leak_exponent = 0.0;  ///< m
     double area_m2 = 0.0;        ///< on which the vacuum clamps

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace limpet::vehicle {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 struct GainPoint {
     double radii, gain;
 };
-/// facts.md section 5: 1.17 to 1.23, 1.08 to 1.11, about 1.04, about 1.
+/// facts.md section 5 (JINT 110, 2024): the middle of 1.17 to 1.23 and of 1.08 to 1.11; 1.04; 1.
 constexpr std::array<GainPoint, 4> kCeiling = {
     {{0.33, 1.20}, {1.0, 1.095}, {1.6, 1.04}, {2.3, 1.0}}};
 
@@ -74,6 +75,15 @@ RotorList<double> thrust_gains(const NearnessModel& model, const AirframeNumbers
         gains[i] += upright * (gain - 1.0);
     }
     return gains;
+}
+
+double mean_thrust_gain(const NearnessModel& model, const AirframeNumbers& airframe,
+                        const Kinematics& base) {
+    if (!model.acts()) {
+        return 1.0;
+    }
+    const RotorList<double> gains = thrust_gains(model, airframe, base);
+    return std::accumulate(gains.begin(), gains.end(), 0.0) / static_cast<double>(gains.size());
 }
 
 AirframeNumbers lifting_by(AirframeNumbers airframe, const RotorList<double>& gains) {

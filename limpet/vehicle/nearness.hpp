@@ -13,7 +13,8 @@
 /// Both fade with the cosine between the rotor's axis and the vertical (assumed: the data are of a
 /// level vehicle).
 /// Source: Cheeseman, Bennett, ARC R&M 3021 (1955); ceiling: "Ground, Ceiling and Wall Effect
-/// Evaluation of Small Quadcopters" (JINT 110, 2024), 12 in quadrotor, by facts.md section 5.
+/// Evaluation of Small Quadcopters in Pressure-controlled Environments" (JINT 110, 2024, doi
+/// 10.1007/s10846-024-02155-7), 12 in quadrotor; its numbers: facts.md section 5.
 namespace limpet::vehicle {
 
 /// Rows of `environment:` about ground and ceiling. Off by default.
@@ -47,6 +48,9 @@ struct NearnessModel {
 [[nodiscard]] RotorList<double> thrust_gains(const NearnessModel& model,
                                              const AirframeNumbers& airframe,
                                              const Kinematics& base);
+/// @return mean over the rotors, 1 in free air
+[[nodiscard]] double mean_thrust_gain(const NearnessModel& model, const AirframeNumbers& airframe,
+                                      const Kinematics& base);
 /// The same vehicle, each rotor with so much of its thrust.
 [[nodiscard]] AirframeNumbers lifting_by(AirframeNumbers airframe, const RotorList<double>& gains);
 

@@ -118,9 +118,10 @@ double hover_drive_share(const AirframeNumbers& airframe) {
     return drive_share(airframe, battery.voltage_V);
 }
 
-double hover_command(const AirframeNumbers& airframe) {
-    const double speed_rad_s = driven_rad_s(airframe.rotor, hover_speed_rad_s(airframe),
-                                            1.0 / hover_drive_share(airframe));
+double hover_command(const AirframeNumbers& airframe, double gain) {
+    const double speed_rad_s =
+        driven_rad_s(airframe.rotor, hover_speed_rad_s(airframe) / std::sqrt(gain),
+                     1.0 / hover_drive_share(airframe));
     return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
 }
 

@@ -118,9 +118,10 @@ struct RotorsState {
 /// What the motors make of the battery's voltage in a hover at the start of its charge; 1 where
 /// speeds do not follow the voltage.
 [[nodiscard]] double hover_drive_share(const AirframeNumbers& airframe);
+/// @param gain  of the rotors' thrust over that in free air, > 0
 /// @return the command, alike on all rotors, whose thrust carries all in still air, at the
 ///         voltage of hover_drive_share()
-[[nodiscard]] double hover_command(const AirframeNumbers& airframe);
+[[nodiscard]] double hover_command(const AirframeNumbers& airframe, double gain = 1.0);
 
 /// How far rotors follow within a step: the exact solution of their lag.
 struct RotorLag {

@@ -13,8 +13,8 @@ struct Point {
     WallCoefficients coefficients;
 };
 
-/// facts.md section 5, 12 in propellers: |C_F| as given for both facilities together, C_M the mean
-/// of TerraXcube and DU2SRI; the last row is assumed.
+/// facts.md section 5 (JINT 110, 2024), 12 in propellers: |C_F| as given for both facilities
+/// together, C_M the mean of TerraXcube and DU2SRI; the last row is assumed.
 constexpr std::array<Point, 6> kPublished = {{
     {1.0, {.0035, 0.5 * (.0080 + .0023)}},
     {1.5, {.0025, 0.5 * (.0048 + .0017)}},
@@ -61,9 +61,9 @@ const ParameterTable<WallAirParameters>& wall_air_table() {
          "correlation time of it", "assumed: facts.md section 5"},
         {"recirculation_full_radii", "-", 0.0, 10.0, &W::recirculation_full_radii,
          "closest motor axis to the wall in propeller radii at which it is full",
-         "assumed: 1.7 to 1.9 when attached"},
+         "assumed: full when attached, at 1.7 to 1.9, facts.md section 5"},
         {"recirculation_none_radii", "-", 0.1, 20.0, &W::recirculation_none_radii,
-         "and from which there is none", "assumed: as the steady part ends"},
+         "and from which there is none", "assumed: as the steady part ends, facts.md section 5"},
     };
     return table;
 }

@@ -18,8 +18,8 @@
 /// Two facilities disagree on the steady part (C_M by a factor of three, the force's sign): their
 /// mean is taken, towards the wall and with the wall's side down (assumed), and a scale turns it.
 /// At this vehicle's d/R it is below 1 % of the thrust either way.
-/// Source: "Ground, Ceiling and Wall Effect Evaluation of Small Quadcopters" (JINT 110, 2024), by
-/// facts.md section 5.
+/// Source: "Ground, Ceiling and Wall Effect Evaluation of Small Quadcopters in Pressure-controlled
+/// Environments" (JINT 110, 2024, doi 10.1007/s10846-024-02155-7); its numbers: facts.md section 5.
 namespace limpet::vehicle {
 
 /// Rows of `environment:` about the wall. All off by default.

@@ -39,6 +39,23 @@ def headings(page):
     return re.findall(r"^#+ (.+)$", re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S), re.M)
 
 
+SOURCE = re.compile(r"\b(assumed|recalled|paper|derived|fitted|convention|decision|here|facts\.md|baseline\.md|physics\.md|px4\.md|PX4|EKF2_\w+|IMU_\w+|"
+                    r"Gazebo|Iris|MAVLink|Motive|sheet|TFmini Plus|MS5803|OptiTrack|R&M|MIL-F-\w+|MIL-STD\w*|ICAO|ISO|WMO|Schmalz|arXiv|doi|"
+                    r"vehicle file|legs and cup|by geometry|all in one plane|none is in another's wake|as \w+|\w+\.hpp)")
+
+
+def parameter_rows():
+    """[(key, default, source)] of docs/parameters.md, which a test of apps holds against the program."""
+    rows = [[cell.strip() for cell in line.split("|")] for line in (ROOT / "docs/parameters.md").read_text().splitlines() if line.startswith("| `")]
+    return [(cells[1].strip("`"), cells[2], cells[6]) for cells in rows if len(cells) == 8]
+
+
+def stands_in(value, text):
+    """To three digits, in SI or in one of the units of a page: mm, hPa, kN, per cent, minutes."""
+    numbers = {float(number) for number in re.findall(r"(?<![\w.])-?\d*\.?\d+(?:e-?\d+)?", text)}
+    return any(abs(number * unit - value) <= 1e-3 * abs(value) for number in numbers for unit in (1, 1e3, 1e-3, 100, 0.01, 60, 0.1, 0.0174533))
+
+
 def sources(folder):
     return sorted(path for path in folder.rglob("*") if path.suffix in (".cpp", ".hpp"))
 
@@ -129,6 +146,39 @@ class Architecture(unittest.TestCase):
                         self.assertTrue(any(known_as.startswith(f"{number}. ") for known_as in known), "no such section")
                     for heading in re.findall(r'"([^"\\]+)\\?"', what):
                         self.assertIn(heading, known)
+
+    def test_every_parameter_has_a_source(self):
+        """A page with its section, a paper, a data sheet, a program that can be had; else the word is "assumed" or "recalled"."""
+        for key, _, source in parameter_rows():
+            with self.subTest(f"{key}: {source}"):
+                self.assertRegex(source, SOURCE)
+                for number in re.findall(r"decision (\d{4})", source):
+                    self.assertTrue(list((ROOT / "docs/decisions").glob(f"{number}-*.md")), "no such decision")
+
+    def test_a_cited_number_stands_on_its_page(self):
+        """Who cites a page of docs/reference for a parameter finds its default there, in some unit; a switch or an effect that is off has none."""
+        for key, value, source in parameter_rows():
+            for page, number, item in re.findall(r"\b(facts\.md|baseline\.md|physics\.md)(?: section (\d+)| item (\d+))?", source):
+                text = (ROOT / "docs/reference" / page).read_text()
+                if number:
+                    text = re.search(rf"^## {number}\. .*?(?=^## |\Z)", text, re.M | re.S)[0]
+                if item:
+                    text = "\n".join(re.findall(rf"^(?:\| {item} \||\*\*Item {item}\.).*?(?=\n\n|\n\| |\Z)", text, re.M | re.S))
+                with self.subTest(f"{key} = {value}: {source}"):
+                    self.assertTrue(value in ("0", "true", "false", "1") or stands_in(float(value), text), "the page does not have it")
+
+    def test_tables_taken_from_a_page_are_that_pages(self):
+        """Numbers that code lists as measured by others stand in the table that it cites."""
+        section = re.search(r"^## 5\. .*?(?=^## )", (ROOT / "docs/reference/facts.md").read_text(), re.M | re.S)[0]
+        there = {float(number) for number in re.findall(r"(?<![\w.])\d*\.?\d+", section)}
+        for name, table in (("nearness.cpp", "kCeiling"), ("wall_aerodynamics.cpp", "kPublished")):
+            text = (ROOT / "limpet/vehicle" / name).read_text()
+            body = re.search(rf"> {table} = (.*?);", text, re.S)[1].replace("0.5 *", "")
+            numbers = [float(number) for number in re.findall(r"(?<![\w.])\d*\.?\d+", body)]
+            self.assertGreater(len(numbers), 7)
+            for number in numbers:
+                with self.subTest(f"{name}: {number}"):
+                    self.assertIn(number, there)
 
     def test_a_fault_of_ours_is_no_answer(self):
         """InternalError is caught where it becomes a run's outcome, or another error, and nowhere else."""

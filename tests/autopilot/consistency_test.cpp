@@ -86,5 +86,40 @@ TEST(Consistency, BoldFilterIsCaught) {
     }
 }
 
+/// A GPS that is off by a constant drags the belief along as far as the filter says that it does:
+/// two runs with the same noise, one of them with the offset, and a barometer that holds against
+/// it.
+TEST(Consistency, AGpssWanderIsFollowedAsFarAsItIsSaid) {
+    const SensorNoise noise;
+    const AutopilotParameters parameters = matched_to_without_motion_capture(noise);
+    const Vector3 offset_m(0.3, -0.2, 0.4);
+    RandomStream initial(300, 0, Stream::test);
+    SensedFlight flight(figure_of_eight, noise, RandomStream(400, 0, Stream::test));
+    const Estimate begin = draw_initial(parameters, flight, initial);
+    EstimatorState without = start_estimator(parameters, begin);
+    EstimatorState with = without;
+    for (int i = 1; i * 0.004 < 10.0; ++i) {
+        flight.step();
+        update_estimator(parameters, without, flight.readings);
+        Readings off = flight.readings;
+        off.gps.value.p_WB_m += offset_m;
+        update_estimator(parameters, with, off);
+        if (i % 125 == 0) {
+            const ErrorVector moved = flight.error(with) - flight.error(without);
+            const ErrorVector said = with.followed * offset_m;
+            EXPECT_LT((moved - said).head<6>().norm(), 0.02 * offset_m.norm()) << i;
+        }
+    }
+    EXPECT_NEAR(with.followed(0, 0), -1.0, 0.1);
+    EXPECT_GT(with.followed(2, 2), -0.9);  // the barometer's share
+    // What it states has that in it: all that is correlated is EKF2_GPS_P_NOISE.
+    const Covariance stated = stated_covariance(parameters, with);
+    EXPECT_NEAR(stated(0, 0),
+                with.covariance(0, 0) + with.followed.row(0).head<2>().squaredNorm() * 0.5 * 0.5 +
+                    std::pow(with.followed(0, 2) * 0.75, 2),
+                1e-12);
+    EXPECT_NEAR(estimate_from(parameters, with).variance[0], stated(0, 0), 1e-12);
+}
+
 }  // namespace
 }  // namespace limpet::autopilot

@@ -59,7 +59,7 @@ double root_mean_square_position(Tracking& run, bool stamps_are_now) {
                 last_s = readings.motion_capture.time_s;
                 readings.motion_capture.time_s = readings.imu.time_s;
             } else if (stamps_are_now) {
-                readings.motion_capture.time_s = run.state.motion_capture_s;  // seen
+                readings.motion_capture.time_s = run.state.seen.motion_capture_s;  // seen
             }
         });
         sum += std::pow(run.error(kPosition), 2) / kSteps;
@@ -116,7 +116,8 @@ TEST(Estimator, OutliersAreRejected) {
     for (int i = 0; i < 250; ++i) {
         clean.go(0.004);
         dirty.go(0.004, [&](Readings& readings) {
-            if (readings.motion_capture.time_s > dirty.state.motion_capture_s && ++sent % 10 == 0) {
+            if (readings.motion_capture.time_s > dirty.state.seen.motion_capture_s &&
+                ++sent % 10 == 0) {
                 readings.motion_capture.value.p_WB_m += Vector3(0.3, -0.2, 0.1);
                 readings.motion_capture.value.q_WB =
                     readings.motion_capture.value.q_WB *

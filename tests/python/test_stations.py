@@ -123,3 +123,17 @@ def test_memory_may_be_kept():
     limpet.fly("hover", {"simulation.time_limit_s": 0.5}, guidance=keeps)
     others = [np.full(50000, 7.0) for _ in range(20)]
     assert np.all(keeps.last == 25.0) and len(others) == 20  # 50 Hz
+
+
+def test_guidance_reads_what_tells_the_place_outdoors():
+    class Reads:
+        def update(self, readings, estimate, time_s, memory):
+            self.readings = (readings.gps_p_WB_m, readings.gps_v_WB_m_s, readings.field_B_gauss, readings.barometer_Pa)
+            return limpet.Setpoint.position([0.0, 0.0, -1.5])
+
+    reads = Reads()
+    limpet.fly("hover", {"simulation.time_limit_s": 3.0}, guidance=reads)
+    position, velocity, field, pressure = reads.readings
+    assert 0.0 < np.linalg.norm(position) < 5.0 and np.linalg.norm(velocity) < 1.0  # near W's origin, with its wander
+    assert 0.4 < np.linalg.norm(field) < 0.6  # Zurich's field, 0.48 gauss
+    assert 1.0e5 < pressure < 1.02e5

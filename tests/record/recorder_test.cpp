@@ -49,10 +49,13 @@ void record_tick(Recorder& recorder, double t, RandomStream& random) {
     recorder.cup_pressure({t, {9e4}});
     recorder.motion_capture({t, {random.normal3(), Quaternion::Identity()}});
     recorder.barometer({t, {kAtmosphere_Pa, 0.0}});
+    recorder.magnetometer({t, {random.normal3()}});
+    recorder.gps({t, {random.normal3(), random.normal3()}});
     recorder.battery({t, {22.2, 15.0, 0.9}});
     Estimate estimate;
     estimate.time_s = t;
     recorder.estimate(estimate);
+    recorder.consistency({.time_s = t, .nees = random.uniform(), .nees_of = {}, .nis_of = {}});
     recorder.setpoint(t, {.motion = PositionSetpoint{}, .armed = true});
     recorder.guidance(t, "hold", 1);
     recorder.rotor_command(t, {{0.1, 0.2, 0.3, 0.4}, true});
@@ -191,6 +194,19 @@ TEST_F(Recorded, SensorsOfTheMechanism) {
     EXPECT_EQ(value("/sensors/battery", "present"), 1.0);
 }
 
+TEST_F(Recorded, WhatTellsWhereItIsOutdoors) {
+    record([](Recorder& r) {
+        r.magnetometer({0.01, {{0.21, 0.02, 0.42}}});
+        r.gps({0.02, {{1.0, 2.0, -3.0}, {0.1, 0.2, 0.3}}});
+    });
+    EXPECT_NEAR(value("/sensors/magnetometer", "magnetic_field.x"), 2.1e-5, 1e-18);   // tesla
+    EXPECT_NEAR(value("/sensors/magnetometer", "magnetic_field.y"), -2e-6, 1e-18);    // left
+    EXPECT_NEAR(value("/sensors/magnetometer", "magnetic_field.z"), -4.2e-5, 1e-18);  // up
+    EXPECT_EQ(value("/sensors/gps", "east_m"), 2.0);
+    EXPECT_EQ(value("/sensors/gps", "down_m"), -3.0);
+    EXPECT_EQ(value("/sensors/gps", "velocity_down_m_s"), 0.3);
+}
+
 TEST_F(Recorded, TruthIsInTheFramesOfItsMessages) {
     Truth truth;
     truth.time_s = 2.5;
@@ -267,6 +283,10 @@ TEST_F(Recorded, EstimateGuidanceAndEvents) {
         estimate.variance.fill(0.04);
         estimate.variance[7] = 9.0;
         r.estimate(estimate);
+        r.consistency({.time_s = 0.48,
+                       .nees = 1.5,
+                       .nees_of = {1.0, 2.0, 3.0, 4.0, 5.0},
+                       .nis_of = {0.1, 0.2, 0.3, 0.4, 0.5, kNaN}});
         r.guidance(0.5, "dock", 2);
         r.event(make_event(0.5, "guidance", EventName::approach_started));
         r.event(make_event(0.75, "cup", EventName::attached, "sealed",
@@ -277,6 +297,11 @@ TEST_F(Recorded, EstimateGuidanceAndEvents) {
     EXPECT_EQ(value("/estimate/deviation", "position_north_m"), 0.2);
     EXPECT_EQ(value("/estimate/deviation", "attitude_right_rad"), 3.0);
     EXPECT_EQ(value("/estimate/deviation", "accelerometer_bias_down_m_s2"), 0.2);
+    EXPECT_EQ(value("/estimate/consistency", "nees"), 1.5);
+    EXPECT_EQ(value("/estimate/consistency", "position_nees"), 1.0);
+    EXPECT_EQ(value("/estimate/consistency", "accelerometer_bias_nees"), 5.0);
+    EXPECT_EQ(value("/estimate/consistency", "gps_position_nis"), 0.3);
+    EXPECT_TRUE(std::isnan(value("/estimate/consistency", "magnetometer_nis")));
     EXPECT_EQ(value("/guidance", "attempt"), 2.0);
     EXPECT_EQ(recording_.table("/guidance").find_text("state")->values.back(), "dock");
 

@@ -66,22 +66,42 @@ std::vector<std::string> nearby(const std::string& name, RandomStream& random) {
         [&random](const BoundParameter& row) { return drawn_nearby(row, random); });
 }
 
+/// And the wall leans either way, is round for every other draw, and wears from grip to grease: the
+/// lip meets it aslant, on one side first, and slides along it from the first instant.
+std::vector<std::string> aslant(const std::string& name, RandomStream& random) {
+    std::vector<std::string> overrides = nearby(name, random);
+    const auto among = [&random](double least, double most) {
+        return least + (most - least) * random.uniform();
+    };
+    overrides.push_back(fmt::format("wall.lean_deg={}", among(-20.0, 20.0)));
+    overrides.push_back(fmt::format("wall.surface.friction={}", among(0.1, 1.0)));
+    overrides.push_back(fmt::format("simulation.start_yaw_deg={}", among(-10.0, 10.0)));
+    if (random.uniform() < 0.5) {
+        overrides.push_back("wall.shape=cylinder");
+        overrides.push_back(fmt::format("wall.radius_m={}", among(0.5, 4.0)));
+    }
+    return overrides;
+}
+
 struct Pair {
     FlightResult coarse, fine;
 };
 
 /// Each draw at the default step and at an eighth of it.
-std::vector<Pair> fly_both(const std::string& name, std::uint32_t draws) {
-    const std::vector<std::string> eighth = {"simulation.step_s=0.000125",
-                                             "simulation.touch_step_s=0.00003125"};
+using Draws = std::vector<std::string> (*)(const std::string& name, RandomStream& random);
+std::vector<Pair> fly_both(const std::string& name, std::uint32_t draws, Draws drawn = nearby,
+                           const std::vector<std::string>& more = {}) {
+    std::vector<std::string> eighth = {"simulation.step_s=0.000125",
+                                       "simulation.touch_step_s=0.00003125"};
+    eighth.insert(eighth.end(), more.begin(), more.end());
     std::vector<Pair> pairs(draws);
     const auto work = [&](std::uint32_t first) {
         for (std::uint32_t run = first; run < draws; run += 2) {
             RandomStream random(1, run, Stream::test);
             std::optional<Scenario> coarse, fine;
             while (!coarse || !fine) {
-                const std::vector<std::string> overrides = nearby(name, random);
-                coarse = loaded(name, overrides);
+                const std::vector<std::string> overrides = drawn(name, random);
+                coarse = loaded(name, overrides, more);
                 fine = loaded(name, overrides, eighth);
             }
             pairs[run] = {.coarse = fly(build_model(*coarse)), .fine = fly(build_model(*fine))};
@@ -93,7 +113,8 @@ std::vector<Pair> fly_both(const std::string& name, std::uint32_t draws) {
     return pairs;
 }
 
-double median_difference(const std::vector<Pair>& pairs, double Metrics::*metric) {
+/// @param share  of the draws that differ less; 0.5: the median
+double difference(const std::vector<Pair>& pairs, double Metrics::*metric, double share = 0.5) {
     std::vector<double> differences;
     for (const Pair& pair : pairs) {
         const double fine = pair.fine.metrics.*metric;
@@ -102,7 +123,8 @@ double median_difference(const std::vector<Pair>& pairs, double Metrics::*metric
         }
     }
     std::sort(differences.begin(), differences.end());
-    return differences[differences.size() / 2];
+    return differences.at(
+        static_cast<std::size_t>(share * static_cast<double>(differences.size())));
 }
 
 void expect_alike(const std::vector<Pair>& pairs) {
@@ -113,7 +135,7 @@ void expect_alike(const std::vector<Pair>& pairs) {
     EXPECT_GE(same, pairs.size() * 98 / 100) << "of " << pairs.size();
     for (const auto metric :
          {&Metrics::impact_force_N, &Metrics::cup_press_max_N, &Metrics::cup_pull_max_N}) {
-        EXPECT_LT(median_difference(pairs, metric), 0.01);
+        EXPECT_LT(difference(pairs, metric), 0.01);
     }
 }
 
@@ -123,6 +145,29 @@ TEST(AnySetting, ATrialEndsAsAtAnEighthOfTheStep) {
 
 TEST(AnySetting, AFlightEndsAsAtAnEighthOfTheStep) {
     expect_alike(fly_both("perch_concrete", 200));
+}
+
+/// The lip's peak at the first touch, whatever the wall's lean and curvature: within a hundredth
+/// for nine in ten. Friction once wound the lip's shear spring up by the damper's share at every
+/// step: the peak rose without end as the step fell, by 5 to 7 % from the default to an eighth of
+/// it.
+TEST(AnySetting, ALipThatMeetsALeaningWallSlidingDoesAsAtAnEighthOfTheStep) {
+    const std::vector<Pair> pairs = fly_both("perch_concrete", 200, aslant,
+                                             {"simulation.time_limit_s=7", "guidance.attempts=1"});
+    std::size_t touched = 0;
+    for (const Pair& pair : pairs) {
+        touched += std::isfinite(pair.fine.metrics.cup_press_max_N) ? 1 : 0;
+    }
+    EXPECT_GT(touched, pairs.size() * 3 / 4);
+    for (const auto metric : {&Metrics::impact_force_N, &Metrics::cup_press_max_N}) {
+        RecordProperty(
+            metric == &Metrics::impact_force_N ? "slider" : "lip",
+            fmt::format("{} {} {}", difference(pairs, metric), difference(pairs, metric, 0.9),
+                        difference(pairs, metric, 0.99)));
+        EXPECT_LT(difference(pairs, metric), 0.003);
+        EXPECT_LT(difference(pairs, metric, 0.9), 0.01);
+        EXPECT_LT(difference(pairs, metric, 0.99), 0.03);
+    }
 }
 
 /// Springs and dampers of lip, slider and joint over all that is allowed, from one end to the

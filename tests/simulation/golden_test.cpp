@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, GoldenHash,
                          testing::Values(Golden{"hover", {}, 0xe8ec6e642853f902},
                                          Golden{"perch_concrete", {}, 0x7aebe0860aeb550e},
                                          Golden{"perch_metal_valve", {}, 0x50221006c4a794f1},
-                                         Golden{"failed_perch", {}, 0x9a5469ce9cbafabe},
+                                         Golden{"failed_perch", {}, 0x8e2ec7753ec258ee},
                                          Golden{"pendulum_concrete", {}, 0x683d96a0955e5242}),
                          [](const auto& row) { return std::string(row.param.scenario); });
 INSTANTIATE_TEST_SUITE_P(OnMujoco, GoldenHash,

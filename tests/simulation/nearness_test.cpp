@@ -43,6 +43,40 @@ TEST(NearnessInTheLoop, AHoverBelowACeilingNeedsLess) {
     EXPECT_NEAR(speed_2({}) / speed_2({ceiling}), gain, 0.15 * (gain - 1.0));
 }
 
+/// A hover begins with what ground and ceiling add: else it rises by half a gain of g and, below a
+/// ceiling that draws it in, meets it within 0.4 s.
+TEST(NearnessInTheLoop, AHoverBeginsAsItStays) {
+    struct Case {
+        const char* name;
+        std::vector<std::string> overrides;
+        double allowed_m;
+    };
+    const Case cases[] = {{"free air", {}, 0.02},
+                          {"5 cm below a ceiling", {"environment.ceiling_height_m=1.59"}, 0.03},
+                          {"and a foot above ground",
+                           {"simulation.start_height_m=0.3", "environment.ground_effect=true",
+                            "environment.ceiling_height_m=0.45"},
+                           0.03},
+                          {"low, in wind",
+                           {"simulation.start_height_m=0.3", "environment.ground_effect=true",
+                            "environment.wind_from_deg=90", "environment.wind_speed_m_s=3"},
+                           0.03}};
+    for (const auto& [name, overrides, allowed_m] : cases) {
+        SCOPED_TRACE(name);
+        std::vector<std::string> all = overrides;
+        all.emplace_back("simulation.hover_s=3");
+        const auto model = model_of("hover", all);
+        const Trace flight = trace(model);
+        EXPECT_EQ(flight.result.outcome, Outcome::released) << flight.result.reason;
+        double highest_m = 0.0;
+        for (const Truth& truth : flight.truth) {
+            highest_m =
+                std::max(highest_m, std::abs(truth.base.p_WF_m.z() - model->start.p_WB_m.z()));
+        }
+        EXPECT_LT(highest_m, allowed_m);
+    }
+}
+
 TEST(NearnessInTheLoop, WhoMeetsTheCeilingCrashes) {
     const auto model = model_of("hover", {"environment.ceiling_height_m=1.75"});
     Truth truth;

@@ -69,6 +69,29 @@ TEST(Stride, IsATickBesideAWallThatIsNotHeld) {
     EXPECT_EQ(next_stride(*model, state).ticks, 1);
 }
 
+/// What carries a stamp is of that time: the lip's gap too, in strides, ticks and sub-steps, from
+/// the first instant on.
+TEST(Stride, TheGapIsThatOfItsStamp) {
+    for (const char* scenario : {"perch_concrete", "perch_blade"}) {
+        Flight flight(model_of(scenario));
+        const WallGeometry& wall = flight.model().cup.wall;
+        const auto error_m = [&flight, &wall] {
+            const Truth& truth = flight.state().truth;
+            return std::abs(truth.cup_status.gap_m - before_wall_m(wall, truth.cup.p_WF_m));
+        };
+        double worst_m = error_m(), moved_m = 0.0;
+        while (!flight.ended() && flight.state().tick < 12 * kTicksPerSecond) {
+            (void)flight.tick();
+            const FlightState& state = flight.state();
+            worst_m = std::max(worst_m, error_m());
+            moved_m = std::max(moved_m, std::abs(state.cup.status.gap_m -
+                                                 before_wall_m(wall, state.truth.cup.p_WF_m)));
+        }
+        EXPECT_LT(worst_m, 1e-12) << scenario;
+        EXPECT_GT(moved_m, 1e-3) << scenario;  // between the cup's last step and now
+    }
+}
+
 /// The same decisions, loads within a hundredth: on every surface, and with the motors that swing.
 /// Guidance decides every 20 ms, and when it is steady enough hangs on noise: after two docking
 /// runs three of its periods have been seen between them.

@@ -120,6 +120,23 @@ TEST(Impact, PeaksAtTheDefaultStepAreTheConvergedOnes) {
     }
 }
 
+/// On an overhang the lip is met aslant and slides: friction bears what spring and damper have
+/// together, or the shear spring is wound up at every step.
+TEST(Impact, PeaksOnAnOverhangAreTheConvergedOnes) {
+    for (const char* lean : {"-15", "-10", "10"}) {
+        const auto peaks = [lean](const char* touch_step_s) {
+            return trace(
+                       model_of("perch_concrete",
+                                {"wall.lean_deg=" + std::string(lean), "simulation.time_limit_s=6",
+                                 "simulation.touch_step_s=" + std::string(touch_step_s)}))
+                .result.metrics;
+        };
+        const Metrics coarse = peaks("0.00025"), fine = peaks("0.00002");
+        EXPECT_NEAR(coarse.cup_press_max_N, fine.cup_press_max_N, 0.005 * fine.cup_press_max_N);
+        EXPECT_NEAR(coarse.impact_force_N, fine.impact_force_N, 0.005 * fine.impact_force_N);
+    }
+}
+
 /// A slow press on a cup that hangs a little: its rim gives way first, and the shear has to turn
 /// with it. At 1 ms it ends as at 0.1 ms.
 TEST(Press, OfALipThatRocksDoesNotDependOnTheStep) {

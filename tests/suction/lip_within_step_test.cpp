@@ -120,5 +120,31 @@ TEST(LipWithinTheStep, WhereTheRimGivesWayTheFrictionTurns) {
                 push_N * 0.02, 1e-9);
 }
 
+/// Pressed by 10 N and slid at 0.2 m/s, the damper alone would bear 12 N of friction's 8: spring
+/// and damper bear those 8 N together, and the spring comes to hold them by exp(-k t / c). It is
+/// never wound up further than the lip went.
+TEST(LipWithinTheStep, AnOpenLipThatSlidesStretchesItsSpringAsTheClosedFormSays) {
+    const LipParameters lip;
+    constexpr double kSpeed_m_s = 0.2, kFriction_N = 8.0;
+    for (const double step_s : {2.5e-4, 1e-4, 1e-5}) {
+        Mass mass(1e6, 1e6, step_s);  // nothing slows it
+        Anchor anchor;
+        LipMotion motion{.gap_m = -5e-4, .faces_wall = true};
+        motion.z_rate_m_s = kSpeed_m_s;
+        for (int k = 0; k * step_s < 0.01; ++k) {
+            const double t_s = k * step_s;
+            motion.z_m = kSpeed_m_s * t_s;
+            const double stretch_m = motion.z_m - anchor.z_m;
+            const double closed_m =
+                kFriction_N / lip.shear_stiffness_N_m *
+                (1.0 - std::exp(-lip.shear_stiffness_N_m * t_s / lip.shear_damping_N_s_m));
+            ASSERT_NEAR(stretch_m, closed_m, 1e-9) << t_s;
+            ASSERT_LE(stretch_m, motion.z_m + 1e-12);
+            const LipLoad load = lip_load(lip, motion, anchor, 0.8, 0.0, false, &mass);
+            ASSERT_NEAR(load.shear_N, kFriction_N, 1e-6);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace limpet::suction

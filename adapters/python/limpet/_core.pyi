@@ -92,6 +92,10 @@ class Readings:
     specific_force_B_m_s2: Final[Array]
     rate_B_rad_s: Final[Array]
     motion_capture_p_WB_m: Final[Array]
+    barometer_Pa: Final[float]
+    field_B_gauss: Final[Array]
+    gps_p_WB_m: Final[Array]
+    gps_v_WB_m_s: Final[Array]
 
 class Setpoint:
     thrust: Final[Optional[float]]

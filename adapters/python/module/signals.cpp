@@ -149,7 +149,21 @@ void add_readings(py::module_& module) {
             "of the gyros [rad/s]")
         .def_property_readonly(
             "motion_capture_p_WB_m",
-            [](const Readings& r) { return array_of(r.motion_capture.value.p_WB_m); }, "[m]");
+            [](const Readings& r) { return array_of(r.motion_capture.value.p_WB_m); }, "[m]")
+        .def_property_readonly(
+            "barometer_Pa",
+            number_of(&Readings::barometer, [](const auto& b) { return b.pressure_Pa; }),
+            "absolute [Pa]")
+        .def_property_readonly(
+            "field_B_gauss",
+            [](const Readings& r) { return array_of(r.magnetometer.value.field_B_gauss); },
+            "of the magnetometer [gauss]")
+        .def_property_readonly(
+            "gps_p_WB_m", [](const Readings& r) { return array_of(r.gps.value.p_WB_m); },
+            "in the local world [m]")
+        .def_property_readonly(
+            "gps_v_WB_m_s", [](const Readings& r) { return array_of(r.gps.value.v_WB_m_s); },
+            "[m/s]");
 }
 
 Setpoint setpoint(const decltype(Setpoint::motion)& motion, bool pump_on, bool valve_open) {
