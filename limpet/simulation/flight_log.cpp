@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "limpet/autopilot/consistency.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/version.hpp"
@@ -126,6 +127,24 @@ Moment moment_of(const FlightState& state) {
                 state.sensors.template units<Sensor>()[0].heard;
         }
     });
+    return now;
+}
+
+std::optional<Consistency> ConsistencyWatch::next(const FlightModel& model,
+                                                  const FlightState& state) {
+    constexpr double kEvery_s = 0.04 - 1e-9;
+    const autopilot::EstimatorState& filter = state.autopilot.estimator;
+    std::optional<Consistency> now;
+    if (before_s_ - last_s_ >= kEvery_s && filter.time_s == before_s_ &&
+        filter.covariance_s == before_s_) {
+        const auto& imu = state.sensors.units<sensors::ImuSensor>()[0].state;
+        now = consistency_of(model.autopilot.parameters, filter,
+                             error_of(filter, before_, imu.gyro_turn_on_rad_s + imu.gyro_bias_rad_s,
+                                      imu.accel_turn_on_m_s2 + imu.accel_bias_m_s2));
+        last_s_ = before_s_;
+    }
+    before_ = state.truth.base;
+    before_s_ = state.truth.time_s;
     return now;
 }
 

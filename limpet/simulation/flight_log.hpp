@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "limpet/core/signals/consistency.hpp"
 #include "limpet/record/recorder.hpp"
-#include "limpet/simulation/consistency.hpp"
 #include "limpet/simulation/flight.hpp"
 
 namespace limpet::simulation {
@@ -42,6 +42,20 @@ struct Moment {
     std::optional<Consistency> consistency = {};  ///< of the tick before, when it is time for one
 };
 [[nodiscard]] Moment moment_of(const FlightState& state);
+
+/// How honest the built-in filter is as a flight goes on, some 25 times a second: its state after a
+/// tick is that of the instant at which the tick began.
+class ConsistencyWatch {
+public:
+    /// After every tick.
+    [[nodiscard]] std::optional<Consistency> next(const FlightModel& model,
+                                                  const FlightState& state);
+
+private:
+    Kinematics before_;
+    double before_s_ = -1.0;
+    double last_s_ = -1.0;
+};
 
 /// Writes a flight's signals as they come: sensors with each new sample, the rest at the scenario's
 /// recording rate.

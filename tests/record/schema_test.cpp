@@ -96,7 +96,8 @@ TEST(MessageDefinitions, OursFollowRosAndCarryUnits) {
     // rosidl accepts no other field names.
     const std::regex allowed("^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$");
     const std::regex united(
-        ".*_(rad|m|m_s|m_s2|rad_s|n|n_m|pa|v|a|j)$|.*(remaining|thrust|command|values|parted|nees|nis)$");
+        ".*_(rad|m|m_s|m_s2|rad_s|n|n_m|pa|v|a|j)$|.*(remaining|thrust|command|values|parted|nees|"
+        "nis)$");
     for (const MessageDefinition& definition : message_definitions()) {
         const auto type =
             parse_message_type(std::string(definition.type), std::string(definition.text));

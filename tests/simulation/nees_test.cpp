@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "../support/files.hpp"
+#include "limpet/autopilot/consistency.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/simulation/consistency.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/flight_log.hpp"
 
@@ -40,18 +40,22 @@ Honesty honesty(const std::string& scenario, const std::vector<std::string>& ove
             const double time_s = seconds(flight.state().tick);
             flight.tick();
             const FlightState& state = flight.state();
-            // Once it has settled.
-            const auto seen =
-                time_s > 2.0 ? consistency_of(*model, state, truth, time_s) : std::nullopt;
-            if (seen) {
-                sum.mean.nees += seen->nees;
+            const autopilot::EstimatorState& filter = state.autopilot.estimator;
+            // Once it has settled, when it has just brought its covariance.
+            if (time_s > 2.0 && filter.time_s == time_s && filter.covariance_s == time_s) {
+                const auto& imu = state.sensors.units<sensors::ImuSensor>()[0].state;
+                const autopilot::ErrorVector error =
+                    error_of(filter, truth, imu.gyro_turn_on_rad_s + imu.gyro_bias_rad_s,
+                             imu.accel_turn_on_m_s2 + imu.accel_bias_m_s2);
+                const Consistency seen = consistency_of(model->autopilot.parameters, filter, error);
+                sum.mean.nees += seen.nees;
                 for (std::size_t k = 0; k < 5; ++k) {
-                    sum.mean.nees_of[k] += seen->nees_of[k];
+                    sum.mean.nees_of[k] += seen.nees_of[k];
                 }
                 for (std::size_t k = 0; k < 6; ++k) {
-                    sum.mean.nis_of[k] += seen->nis_of[k];
+                    sum.mean.nis_of[k] += seen.nis_of[k];
                 }
-                sum.squared_m2 += filter_error(state, truth).head<3>().cwiseAbs2();
+                sum.squared_m2 += error.head<3>().cwiseAbs2();
                 for (int axis = 0; axis < 3; ++axis) {
                     sum.stated_m2[axis] +=
                         state.autopilot.estimate.variance[static_cast<std::size_t>(axis)];
