@@ -190,7 +190,9 @@ std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe) {
     add_part(airframe.pose == Px4Pose::gps ? "gps" : "motion_capture", airframe, settings);
     if (airframe.perches) {
         add_part("perching", airframe, settings);
-        add_part("perching_estimator", airframe, settings);
+        if (airframe.pose == Px4Pose::motion_capture) {  // by GPS its bias would wander with it
+            add_part("perching_estimator", airframe, settings);
+        }
     }
     add_part("offboard", airframe, settings);
     if (airframe.target != Px4Target::flight) {

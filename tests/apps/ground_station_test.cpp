@@ -157,10 +157,10 @@ TEST(GroundStation, ThatSpeaksMavlink1IsToldSo) {
     GroundView view;
     auto flight = start(bench, {"fly", "hover", "--set", "simulation.hover_s=10", "--speed", "4",
                                 "--no-record", "--ground-station", view.address()});
-    ASSERT_TRUE(view.until([&] { return view.heard[mavlink::Heartbeat::kId] > 0; }));
+    ASSERT_TRUE(view.until([&] { return view.received[mavlink::Heartbeat::kId] > 0; }));
     EXPECT_EQ(view.transport.send(heartbeat_of_version_1(), std::chrono::seconds(1)).status,
               wire::TransferStatus::done);
-    EXPECT_TRUE(view.until([&] { return view.said("released: "); }));
+    EXPECT_TRUE(view.until([&] { return view.received_text("released: "); }));
     const Finished finished = flight.get();
     EXPECT_THAT(finished.out, HasSubstr("ground station: refused: MAVLink 1, which is not read: "
                                         "MAV_PROTO_VER 2 makes a PX4 speak MAVLink 2\n"));
