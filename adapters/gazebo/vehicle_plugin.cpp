@@ -15,6 +15,7 @@
 #include "adapters/gazebo/sdf_reader.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/flight_text.hpp"
+#include "limpet/simulation/px4_setup.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
@@ -152,9 +153,17 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
         const px4::Px4WireWatch watch{
             .on_open = [](const std::string& where) { print_line("waiting for PX4 on " + where); },
             .on_text = [](const std::string& text) { print_line("          PX4: " + text); },
+            .on_difference =
+                [](const std::vector<mavlink::ParameterDifference>& found) {
+                    for (const std::string& line : lines_of(found)) {
+                        print_line("parameters " + line);
+                    }
+                },
             .wait_key = "wait_s"};
+        px4::Px4Addresses addresses = options_.px4;
+        addresses.expected = simulation::px4_expected(options_.scenario, addresses.serial());
         px4_ = std::make_unique<px4::Px4Wires>(
-            options_.px4, std::round(options_.scenario.sensors.imu_rate_Hz), true, watch, &stop_);
+            addresses, std::round(options_.scenario.sensors.imu_rate_Hz), true, watch, &stop_);
         flight.conduct.outside.autopilot = &px4_->autopilot();
     }
     host_ = std::make_unique<FlightHost>(std::move(model), std::move(flight));

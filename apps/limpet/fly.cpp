@@ -71,6 +71,7 @@ void check_together(const Given& given, const FlyOptions& options) {
     only_with(given, options.live.wanted, {"--live-wait"}, "--live");
     only_with(given, options.autopilot == "builtin", {"--hangs-on"}, "the built-in autopilot");
     only_with(given, !options.quiet, {"--live"}, "its address, not with --quiet");
+    only_with(given, !options.quiet, {"--hangs-on"}, "lines on the terminal, not with --quiet");
 }
 
 /// --seed N is --set seed=N, last: checked alike.
@@ -174,6 +175,9 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
         company.live->end(result);
         terminal.line("live", company.live->live().report());
     }
+    const ExitCode code =
+        conclude(options, result, *stop, "ground", company.ground ? company.ground->report() : "",
+                 company.px4 ? &*company.px4 : nullptr, terminal);
     if (options.hangs_on && !*stop) {
         terminal.progress("flies each assumed value less and more");
         const assumptions::Register all =
@@ -182,9 +186,7 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
         terminal.progress("");
         terminal.line(hangs_on_text(all));
     }
-    return conclude(options, result, *stop, "ground",
-                    company.ground ? company.ground->report() : "",
-                    company.px4 ? &*company.px4 : nullptr, terminal);
+    return code;
 }
 
 }  // namespace

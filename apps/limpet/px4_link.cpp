@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -24,25 +23,6 @@ px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Sc
     addresses.patience_s = options.patience_s;
     addresses.only_px4 = options.only_px4;
     return addresses;
-}
-
-/// As `px4-params` would set it, less what the PX4 that was started has no more.
-std::vector<mavlink::ExpectedParameter> expected(const Px4LinkOptions& options,
-                                                 const scenario::Scenario& scenario,
-                                                 const std::vector<std::string>& left_out,
-                                                 Terminal& terminal) {
-    px4::Px4Airframe airframe = simulation::px4_airframe(scenario);
-    airframe.target = options.serial() ? px4::Px4Target::hitl : px4::Px4Target::sitl;
-    try {
-        auto parameters = px4::expected_parameters(px4_settings(airframe));
-        std::erase_if(parameters, [&](const mavlink::ExpectedParameter& each) {
-            return std::find(left_out.begin(), left_out.end(), each.name) != left_out.end();
-        });
-        return parameters;
-    } catch (const InputError& error) {  // the stand-in may fly with what PX4 does not take
-        terminal.line("note", fmt::format("parameters are not compared: {}", error.what()));
-        return {};
-    }
 }
 
 /// How to start what is waited for, to be copied.
@@ -175,18 +155,12 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
             },
         .on_difference =
             [this, &terminal](const std::vector<mavlink::ParameterDifference>& found) {
-                constexpr std::size_t kMostShown = 5;
                 for (const mavlink::ParameterDifference& difference : found) {
                     differences_.push_back(text_of(difference));
-                    if (differences_.size() <= kMostShown) {
-                        terminal.line(differences_.size() == 1 ? "parameters" : "",
-                                      differences_.back());
-                    }
                 }
-                if (found.size() > kMostShown) {
-                    terminal.line("", fmt::format("and {} more (all in link.json); limpet "
-                                                  "px4-params writes what is expected",
-                                                  found.size() - kMostShown));
+                const char* head = "parameters";
+                for (const std::string& line : lines_of(found)) {
+                    terminal.line(std::exchange(head, ""), line);
                 }
             },
         .wait_key = "--wait SECONDS"};
@@ -196,9 +170,9 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
     try {
         px4::Px4Addresses addresses = addresses_of(options, *model.scenario);
         if (flies) {
-            addresses.expected =
-                expected(options, *model.scenario,
-                         process_ ? process_->left_out() : std::vector<std::string>(), terminal);
+            addresses.expected = simulation::px4_expected(
+                *model.scenario, options.serial(),
+                process_ ? process_->left_out() : std::vector<std::string>());
         }
         wires_.emplace(addresses, model.control_rate_Hz, flies, watch, stop);
     } catch (...) {

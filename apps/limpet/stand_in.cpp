@@ -15,7 +15,6 @@
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
-#include "limpet/simulation/px4_setup.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -55,10 +54,11 @@ void set(const std::vector<BoundParameter>& rows, const std::string& text) {
 
 /// As `limpet px4-params` sets a PX4: else a perched vehicle may not arm.
 void set_as_px4(const scenario::Scenario& scenario, px4::StandInParameters& parameters) {
-    px4::Px4Airframe airframe = simulation::px4_airframe(scenario);
-    airframe.autopilot = {};  // of the commander's alone: those of control are the scenario's
+    if (!scenario.airframe.has_cup) {
+        return;
+    }
     const std::vector<BoundParameter> rows = bind(px4::stand_in_table(), parameters);
-    for (const px4::Px4Setting& setting : px4_settings(airframe)) {
+    for (const px4::Px4Setting& setting : px4::px4_needs()) {
         if (const BoundParameter* row = find_named(rows, setting.name)) {
             row->value.set(setting.value);
         }

@@ -35,6 +35,9 @@ public:
                                 instance_);
             }
             px4::Px4Addresses addresses = simulation::px4_addresses(*model->scenario, instance_);
+            addresses.expected = simulation::px4_expected(
+                *model->scenario, false,
+                process ? process->left_out() : std::vector<std::string>());
             addresses.wait_s = crew_.wait_s;
             addresses.only_px4 = crew_.only_px4;
             px4::Px4WireWatch watch{.wait_key = "--wait SECONDS"};
@@ -43,8 +46,15 @@ public:
                     process->require_running();
                 }
             };
+            std::string differs;
+            watch.on_difference = [&differs](const auto& found) {
+                differs = fmt::format("; {} parameters differ: {}", found.size(),
+                                      mavlink::text_of(found.front()));
+            };
             px4::Px4Wires wires(addresses, model->control_rate_Hz, true, watch, stop_);
-            if (try_to_fly(row, model, wires)) {
+            const bool began = try_to_fly(row, model, wires);
+            row.autopilot += differs;
+            if (began) {
                 return;
             }
         }

@@ -38,6 +38,19 @@ std::string text_of(const ParameterDifference& difference) {
                        expected);
 }
 
+std::vector<std::string> lines_of(const std::vector<ParameterDifference>& found) {
+    constexpr std::size_t kMost = 5;
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) {
+        lines.push_back(text_of(found[i]));
+    }
+    if (found.size() > kMost) {
+        lines.push_back(fmt::format("and {} more; limpet px4-params writes what is expected",
+                                    found.size() - kMost));
+    }
+    return lines;
+}
+
 ParameterCheck::ParameterCheck(std::vector<ExpectedParameter> expected) {
     rows_.reserve(expected.size());
     for (ExpectedParameter& each : expected) {

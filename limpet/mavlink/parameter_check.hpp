@@ -24,6 +24,9 @@ struct ParameterDifference {
 /// "FD_FAIL_P 60 instead of 0 (reason)"; "no COM_SPOOLUP_TIME (reason)".
 [[nodiscard]] std::string text_of(const ParameterDifference& difference);
 
+/// Of several, for people: the first five, then how many more there are.
+[[nodiscard]] std::vector<std::string> lines_of(const std::vector<ParameterDifference>& found);
+
 /// Compares an autopilot's parameters with those that a flight expects, before it is armed: each is
 /// read by name over the parameter protocol, at most three times. Time is injected.
 class ParameterCheck {

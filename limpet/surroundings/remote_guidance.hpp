@@ -90,8 +90,8 @@ private:
     int approaches_ = 0;
     std::optional<guidance::Ending> ending_;
     std::deque<std::string> texts_;  ///< addresses stay
-    /// Of a companion that ends without an outcome: "handed back: reason".
     mavlink::TextJoiner joiner_;
+    /// Of a companion that ends without an outcome: "handed back: reason".
     std::string last_words_ = "the companion ended its mission";
     OutsideCount count_;
 };
