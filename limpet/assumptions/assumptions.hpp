@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +29,13 @@ struct Assumption {
 /// Those of a scenario: not zero, and not derived from others.
 /// @param share  by which a neighbour is off: 0.1 is 10 %
 [[nodiscard]] std::vector<Assumption> assumed(scenario::Scenario scenario, double share);
+
+/// What settles the keys that begin so.
+struct Measurement {
+    std::string_view of;
+    std::string_view by;
+};
+[[nodiscard]] std::span<const Measurement> measurements();
 
 /// What would settle a key; empty: nothing that a user measures.
 [[nodiscard]] std::string_view measurement_of(std::string_view key);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/simulation/flight.hpp"
@@ -78,18 +79,42 @@ TEST(Weigh, IsTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(register_json(one), register_json(three));
 }
 
-/// A perch that is just sealed: less of a threshold's company, and it is none.
 TEST(Weigh, AnOutcomeThatHangsOnAValueIsNamed) {
-    const auto text = text_of("press_concrete");
-    Register all = weigh(text, "press_concrete", {.share = 0.5, .seeds = {1}});
-    const bool flips = std::any_of(all.values.begin(), all.values.end(),
-                                   [](const Weighed& each) { return !each.flips.empty(); });
-    EXPECT_THAT(hangs_on_text(all), HasSubstr(flips ? "this outcome hangs on\n" : "hangs on none"));
-    all.values.front().flips = {{1, 3.0, "crashed (fallen)"}};
-    EXPECT_THAT(hangs_on_text(all),
-                HasSubstr(all.values.front().assumption.key + " = " +
-                          fmt::format("{:g}", all.values.front().assumption.value)));
-    EXPECT_THAT(hangs_on_text(all), HasSubstr("3: crashed (fallen) in 1 of 1"));
+    Register all;
+    all.values.push_back(
+        {.assumption = {.key = "suction.radius_m", .unit = "m", .value = 0.04}, .flights = 2});
+    EXPECT_THAT(hangs_on_text(all), HasSubstr("hangs on none of 1 assumed values"));
+    all.values.front().flips = {{1, 0.036, "crashed (fallen)"}};
+    EXPECT_EQ(hangs_on_text(all),
+              "this outcome hangs on\n"
+              "  suction.radius_m = 0.04 m: 0.036: crashed (fallen) in 1 of 1\n");
+}
+
+/// Which values flip is that of the flights with them turned.
+TEST(Weigh, AFlipIsAFlightThatEndsOtherwise) {
+    const std::string name = "perch_concrete";
+    const auto flown = [&name](const std::vector<std::string>& overrides) {
+        const auto scenario = scenario::load_scenario(name, {.overrides = overrides});
+        const auto result = simulation::fly(simulation::build_model(scenario));
+        return fmt::format("{} ({})", to_string(result.outcome), to_string(result.true_end));
+    };
+    // The docking run takes 1.66 s; a tenth less of its limit ends it.
+    const std::vector<std::string> tight = {"guidance.approach_limit_s=1.75"};
+    const scenario::ScenarioText text(to_yaml(scenario::load_scenario(name, {.overrides = tight})),
+                                      name);
+    const Register all = weigh(text, name, {.seeds = {1}});
+    ASSERT_EQ(all.outcomes, std::vector{flown(tight)});
+    std::size_t flips = 0;
+    for (const Weighed& each : all.values) {
+        for (const Flip& flip : each.flips) {
+            ++flips;
+            std::vector<std::string> turned = tight;
+            turned.push_back(each.assumption.key + "=" + scenario::number_text(flip.to));
+            EXPECT_EQ(flown(turned), flip.outcome) << turned.back();
+            EXPECT_NE(flip.outcome, all.outcomes.front());
+        }
+    }
+    EXPECT_GT(flips, 0U);
 }
 
 TEST(Weigh, WhatMovesAFigureIsBeyondItsScatterAndLargestFirst) {
@@ -113,11 +138,20 @@ TEST(Weigh, WhatMovesAFigureIsBeyondItsScatterAndLargestFirst) {
     EXPECT_EQ(that_move(all, "release_s", 1).size(), 1U);
 }
 
-TEST(Measurements, EveryPartOfAVehicleAndACupHasOne) {
-    for (const Assumption& each : assumed(scenario::load_scenario("perch_concrete"), 0.1)) {
-        if (each.key.starts_with("vehicle.") || each.key.starts_with("suction.")) {
-            EXPECT_FALSE(each.measurement.empty()) << each.key;
+/// And none is for keys that no scenario has.
+TEST(Measurements, EachIsThatOfAnAssumedKey) {
+    std::set<std::string_view> used;
+    for (const char* name : {"perch_concrete", "perch_payload", "perch_gps", "slow_motors_metal"}) {
+        for (const Assumption& each : assumed(scenario::load_scenario(name), 0.1)) {
+            if (each.key.starts_with("vehicle.cup.") || each.key.starts_with("vehicle.slider.") ||
+                each.key.starts_with("wall.surface.")) {
+                EXPECT_FALSE(each.measurement.empty()) << each.key;
+            }
+            used.insert(measurement_of(each.key));
         }
+    }
+    for (const auto& [of, by] : measurements()) {
+        EXPECT_TRUE(used.contains(by)) << of;
     }
 }
 
