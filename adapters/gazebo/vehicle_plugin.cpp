@@ -161,7 +161,9 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
                 },
             .wait_key = "wait_s"};
         px4::Px4Addresses addresses = options_.px4;
-        addresses.expected = simulation::px4_expected(options_.scenario, addresses.serial());
+        px4::Px4Airframe airframe = simulation::px4_airframe(options_.scenario);
+        airframe.target = addresses.serial() ? px4::Px4Target::hitl : px4::Px4Target::sitl;
+        addresses.expected = px4::expected_parameters(airframe);
         px4_ = std::make_unique<px4::Px4Wires>(
             addresses, std::round(options_.scenario.sensors.imu_rate_Hz), true, watch, &stop_);
         flight.conduct.outside.autopilot = &px4_->autopilot();

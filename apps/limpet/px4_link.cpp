@@ -170,9 +170,10 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
     try {
         px4::Px4Addresses addresses = addresses_of(options, *model.scenario);
         if (flies) {
-            addresses.expected = simulation::px4_expected(
-                *model.scenario, options.serial(),
-                process_ ? process_->left_out() : std::vector<std::string>());
+            px4::Px4Airframe airframe = simulation::px4_airframe(*model.scenario);
+            airframe.target = options.serial() ? px4::Px4Target::hitl : px4::Px4Target::sitl;
+            addresses.expected = px4::expected_parameters(
+                airframe, process_ ? process_->left_out() : std::vector<std::string>());
         }
         wires_.emplace(addresses, model.control_rate_Hz, flies, watch, stop);
     } catch (...) {

@@ -30,14 +30,13 @@ public:
         const auto model = model_of(campaign_, row);
         for (int left = kTries; left > 0; --left) {
             std::optional<px4::Px4Process> process;
+            const px4::Px4Airframe airframe = simulation::px4_airframe(*model->scenario);
             if (crew_.start) {
-                process.emplace(*crew_.start, simulation::px4_airframe(*model->scenario),
-                                instance_);
+                process.emplace(*crew_.start, airframe, instance_);
             }
             px4::Px4Addresses addresses = simulation::px4_addresses(*model->scenario, instance_);
-            addresses.expected = simulation::px4_expected(
-                *model->scenario, false,
-                process ? process->left_out() : std::vector<std::string>());
+            addresses.expected = px4::expected_parameters(
+                airframe, process ? process->left_out() : std::vector<std::string>());
             addresses.wait_s = crew_.wait_s;
             addresses.only_px4 = crew_.only_px4;
             px4::Px4WireWatch watch{.wait_key = "--wait SECONDS"};

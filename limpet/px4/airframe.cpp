@@ -232,6 +232,19 @@ std::vector<mavlink::ExpectedParameter> expected_parameters(
     return expected;
 }
 
+std::vector<mavlink::ExpectedParameter> expected_parameters(
+    const Px4Airframe& airframe, const std::vector<std::string>& left_out) {
+    try {
+        Settings settings = px4_settings(airframe);
+        std::erase_if(settings, [&](const Px4Setting& each) {
+            return std::find(left_out.begin(), left_out.end(), each.name) != left_out.end();
+        });
+        return expected_parameters(settings);
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
 Px4Fitted fitted(const std::vector<Px4Setting>& settings, const Px4Facts& known) {
     Px4Fitted result;
     for (const Px4Setting& setting : settings) {

@@ -87,6 +87,11 @@ struct Px4Fitted {
 /// What a PX4 is compared with before it is armed.
 [[nodiscard]] std::vector<mavlink::ExpectedParameter> expected_parameters(
     const std::vector<Px4Setting>& settings);
+/// The same of an airframe.
+/// @param left_out  that this PX4 has no more
+/// @return nothing where PX4 does not take one of its values: the stand-in may fly it
+[[nodiscard]] std::vector<mavlink::ExpectedParameter> expected_parameters(
+    const Px4Airframe& airframe, const std::vector<std::string>& left_out = {});
 
 /// A parameter file for QGroundControl: tab-separated lines
 /// `vehicle component name value type`; each has its reason in a comment above it.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/px4_setup.hpp"
 
-#include <algorithm>
 #include <limits>
 
-#include "limpet/core/errors.hpp"
 #include "limpet/scenario/derived.hpp"
 
 namespace limpet::simulation {
@@ -23,21 +21,6 @@ px4::Px4Airframe px4_airframe(const scenario::Scenario& scenario, std::optional<
     airframe.pose =
         scenario.autopilot.EKF2_EV_CTRL != 0 ? px4::Px4Pose::motion_capture : px4::Px4Pose::gps;
     return airframe;
-}
-
-std::vector<mavlink::ExpectedParameter> px4_expected(const scenario::Scenario& scenario, bool board,
-                                                     const std::vector<std::string>& left_out) {
-    px4::Px4Airframe airframe = px4_airframe(scenario);
-    airframe.target = board ? px4::Px4Target::hitl : px4::Px4Target::sitl;
-    try {
-        auto parameters = px4::expected_parameters(px4_settings(airframe));
-        std::erase_if(parameters, [&](const mavlink::ExpectedParameter& each) {
-            return std::find(left_out.begin(), left_out.end(), each.name) != left_out.end();
-        });
-        return parameters;
-    } catch (const InputError&) {
-        return {};
-    }
 }
 
 px4::Px4Addresses px4_addresses(const scenario::Scenario& scenario,
