@@ -24,7 +24,7 @@ bool same_float(double a, double b) {
     return std::abs(a - b) <= kFloat * std::max({std::abs(a), std::abs(b), 1e-3});
 }
 
-std::string with_reason(std::string text, const ExpectedParameter& expected) {
+std::string with_reason(const std::string& text, const ExpectedParameter& expected) {
     return expected.reason.empty() ? text : text + " (" + expected.reason + ")";
 }
 
