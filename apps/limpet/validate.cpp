@@ -34,7 +34,7 @@ std::size_t points_of(const Measurement& row) {
 }
 
 void print_row(const ValidateOptions& options, const Measurement& row, const Comparison& found) {
-    fmt::print("  {:<27} {:>6}  {:>7.2g}  {:>7.2g}  {:>6.2g}  {:<8} {}\n", row.id, points_of(row),
+    fmt::print("  {:<27} {:>6}  {:>7.3g}  {:>7.3g}  {:>6.2g}  {:<8} {}\n", row.id, points_of(row),
                found.rms, found.largest, row.holds_within, found.holds ? "holds" : "differs",
                fitted_text(row, found));
     if (options.notes) {
