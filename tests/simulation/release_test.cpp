@@ -55,6 +55,18 @@ TEST(PerchMetalValve, IsReleasedAtOnce) {
     EXPECT_LT(trace.first(detached) - trace.first(valve_open), 0.3);
 }
 
+/// A pump that draws on for six seconds delays the release by them, and no more. In this flight a
+/// reading comes back to the first of the release, as that of a stuck sensor would.
+TEST(ReleaseRunsOn, IsWaitedFor) {
+    const auto release_s = [](const Trace& trace) {
+        return trace.first(detached) - trace.first(pump_off);
+    };
+    const Trace trace = simulation::trace(model_of("release_runs_on", {}, 5));
+    EXPECT_EQ(trace.result.outcome, Outcome::released);
+    EXPECT_TRUE(trace.times(aborted).empty());
+    EXPECT_NEAR(release_s(trace) - release_s(flown("perch_concrete")), 6.0, 0.3);
+}
+
 TEST(OscillationLimit, InterruptsTheRelease) {
     // A limit below what the take-off leaves behind stands for a swing that grew.
     const Trace trace =
