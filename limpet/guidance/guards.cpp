@@ -349,8 +349,10 @@ bool stuck_behind_valve(const Scene& s) {
     return valve_fitted(s) && pressure_stuck(s);
 }
 bool seals_again(const Scene& s) {
-    return s.memory.cup.lets_go && sealed(s) && vote_of_pose(s) == Vote::held &&
-           s.memory.cup.sealed_again < s.parameters.attempts;
+    // Half-way back from where it counts as free to where it carries.
+    const double again_Pa = 0.5 * (s.parameters.detach_pressure_Pa + s.parameters.land_pressure_Pa);
+    return s.memory.cup.lets_go && s.pressure_known() && s.pressure_Pa() < again_Pa &&
+           vote_of_pose(s) == Vote::held && s.memory.cup.sealed_again < s.parameters.attempts;
 }
 bool pressure_safe(const Scene& s) {
     return s.pressure_known() && s.pressure_Pa() > s.parameters.detach_pressure_Pa;

@@ -206,7 +206,8 @@ const ParameterTable<PneumaticParameters>& Pneumatic::table() {
         {"cup_stretch_cm3_N", "cm^3/N", 0.0, 10.0, &P::cup_stretch_cm3_N,
          "pneumatic: volume that each newton of pull adds to a soft cup, whose pressure falls "
          "again: it clings without a pump until its leak fills it",
-         "assumed: 0, rigid; the lip's spring of 20 kN/m under 50 cm^2 gives 0.25"},
+         "assumed: 0, rigid; the lip's spring of 20 kN/m under 50 cm^2 gives 0.25, bellows ten "
+         "times that"},
         {"valve_bore_mm", "mm", 0.0, 100.0, &P::valve_bore_mm, "pneumatic: the open valve's bore",
          "facts.md item 20: 2 mm on 60 cm^3"},
         {"hose_bore_mm", "mm", 0.0, 100.0, &P::hose_bore_mm,
