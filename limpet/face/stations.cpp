@@ -69,7 +69,7 @@ suction::CupOutput CupSeat::step(const suction::CupModel& model, suction::CupSta
     suction::CupOutput output = suction::step(model, state, surface, cup, input, dt_s);
     const CupPhase phase = state.status.phase;
     if (phase == CupPhase::sealing || phase == CupPhase::attached || phase == CupPhase::unsealing) {
-        air.pump_running = input.pump_on && input.pump_draws;
+        air.pump_running = suction::pump_turns(model.parameters, state, input) && input.pump_draws;
         air.valve_open = input.valve_open;
         air.press_N = -state.status.pull_N;
         air.peel_N_m = state.status.peel_N_m;

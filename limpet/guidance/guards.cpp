@@ -342,11 +342,17 @@ bool valve_fitted(const Scene& s) {
     return s.parameters.valve_fitted;
 }
 bool pressure_stuck(const Scene& s) {
-    return s.elapsed_s() > s.parameters.stuck_s &&
-           std::abs(s.pressure_Pa() - s.memory.entry_pressure_Pa) < s.parameters.stuck_pressure_Pa;
+    // Not one reading like that of the beginning: where a pump runs on, noise comes back to it.
+    return s.time_s - std::max(s.memory.since_s, s.memory.cup.moved_s) > s.parameters.stuck_s;
 }
 bool stuck_behind_valve(const Scene& s) {
     return valve_fitted(s) && pressure_stuck(s);
+}
+bool seals_again(const Scene& s) {
+    // Half-way back from where it counts as free to where it carries.
+    const double again_Pa = 0.5 * (s.parameters.detach_pressure_Pa + s.parameters.land_pressure_Pa);
+    return s.memory.cup.lets_go && s.pressure_known() && s.pressure_Pa() < again_Pa &&
+           vote_of_pose(s) == Vote::held && s.memory.cup.sealed_again < s.parameters.attempts;
 }
 bool pressure_safe(const Scene& s) {
     return s.pressure_known() && s.pressure_Pa() > s.parameters.detach_pressure_Pa;

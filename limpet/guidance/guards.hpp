@@ -106,6 +106,9 @@ struct Scene {
 /// The air comes in, the reading does not move.
 [[nodiscard]] bool pressure_stuck(const Scene& s);
 [[nodiscard]] bool stuck_behind_valve(const Scene& s);
+/// Let go of, it holds again: a pump that runs on, a soft cup that the pull stretches. So often as
+/// there are attempts.
+[[nodiscard]] bool seals_again(const Scene& s);
 [[nodiscard]] bool pressure_safe(const Scene& s);
 [[nodiscard]] bool swings(const Scene& s);
 [[nodiscard]] bool release_too_long(const Scene& s);

@@ -151,6 +151,8 @@ constexpr std::array kTable = {
          E::backed_off),
     done(S::backing_off, settled, "came off the wall, back at the pre-position", Outcome::aborted,
          E::backed_off),
+    Transition{S::backing_off, seals_again, S::releasing, "the cup seals again while it leaves",
+               E::aborted},
     Transition{S::backing_off, held_back, S::resealing, "the cup does not come off", E::aborted},
     ends(S::backing_off, too_long_released, "off the wall, not back at the pre-position in time",
          Outcome::released),
@@ -186,6 +188,7 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
     }
     const bool leaves = row.to == S::retreating || row.to == S::backing_off;
     memory.has_perched = memory.has_perched || row.to == S::standing;
+    memory.cup.sealed_again += row.guard == seals_again ? 1 : 0;
     memory.release_given_up = memory.release_given_up || row.to == S::resealing;
     memory.cup.lets_go = row.to == S::releasing || (memory.cup.lets_go && row.to != S::resealing);
     memory.cup.pump_stays = row.to == S::braking
@@ -220,7 +223,6 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
     memory.since_s = s.time_s;
     memory.settled_since_s = -1.0;
     memory.rest.q_WB = estimate.q_WB;
-    memory.entry_pressure_Pa = s.pressure_Pa();
     memory.entry_p_W_m = estimate.p_WB_m;
     memory.entry_pitch_rad = windy(s.parameters, memory)
                                  ? pitch_on_lip_rad(memory.wall.into_wall_W(), estimate.q_WB)
@@ -266,6 +268,16 @@ void watch_rest(const PerchingParameters& parameters, PerchingMemory& memory,
         memory.rest.q_WB.angularDistance(estimate.q_WB) > radians(parameters.moved_limit_deg)) {
         memory.rest.q_WB = estimate.q_WB;
         memory.rest.moved_s = time_s;
+    }
+}
+
+/// A sensor that is stuck gives one value, any other one scatters.
+void watch_pressure(const PerchingParameters& parameters, PerchingMemory& memory,
+                    const Readings& readings, double time_s) {
+    const double pressure_Pa = readings.cup_pressure.value.pressure_Pa;
+    if (std::abs(pressure_Pa - memory.cup.moved_Pa) >= parameters.stuck_pressure_Pa) {
+        memory.cup.moved_Pa = pressure_Pa;
+        memory.cup.moved_s = time_s;
     }
 }
 
@@ -324,6 +336,7 @@ void update(const PerchingParameters& parameters, const PerchingTask& task, Perc
     }
     feel_wind(parameters, memory, estimate, time_s);
     watch_rest(parameters, memory, estimate, time_s);
+    watch_pressure(parameters, memory, readings, time_s);
     const Scene scene{parameters, task, memory, readings, estimate, time_s};
     const auto since = [time_s](double& since_s, bool holds) {
         since_s = !holds ? -1.0 : since_s < 0.0 ? time_s : since_s;

@@ -45,9 +45,10 @@ namespace limpet::guidance {
 //   levelled                           resealing ──────────┤ no vacuum
 //        │ pump_off, valve_open            ▲ │ landing_started ──► pitching_up
 //   releasing ── aborted (time, swing, ────┤               │
-//        │                sensor stuck)    │               │
-//        │ pressure_released               │               │
-//   backing_off ◄──────────────────────────┼───────────────┘
+//    ▲   │                sensor stuck)    │               │
+//    │   │ pressure_released               │               │
+//    │  backing_off ◄──────────────────────┼───────────────┘
+//    └───┤ aborted (seals again)           │
 //        │      ── aborted (held) ─────────┘
 //        │ backed_off
 //   finished
@@ -104,6 +105,9 @@ struct CupBelief {
     bool lets_go = false;           ///< the pump went off so that the cup comes off, and stayed off
     bool pump_stays = false;        ///< leaves, though the pressure says that the cup holds
     bool pressure_doubted = false;  ///< the cup held when the sensor reported that it could not
+    double moved_Pa = 0.0;          ///< the pressure when it last was another
+    double moved_s = -1e9;          ///< and when that was
+    int sealed_again = 0;           ///< how often the cup did while it was left
 };
 
 /// Of the estimate while it rests.
@@ -130,7 +134,6 @@ struct PerchingMemory {
     Vector3 grip_W_m = Vector3::Zero();     ///< the cup's joint when the cup had gripped
     WindFelt wind;
     double entry_pitch_rad = 0.0;
-    double entry_pressure_Pa = 0.0;
     double entry_yaw_rad = 0.0;
     RestSeen rest;
     Setpoint setpoint;

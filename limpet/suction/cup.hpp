@@ -39,6 +39,7 @@ struct CupParameters {
     bool valve_fitted = false;                ///< a solenoid valve breaks the vacuum
     double seal_creep_1_s = 0.0;              ///< growth of a seal's leak by time
     double seal_wear_1_N = 0.0;               ///< and by what the pull on it rises and falls
+    double pump_runs_on_s = 0.0;              ///< draws for so long after it was switched off
     int pressure_model = 0;                   ///< place in pressure_models()
     double ambient_Pa = kAtmosphere_Pa;       ///< of the air around; the environment's, no row
 };
@@ -56,15 +57,20 @@ struct CupModel {
     WallGeometry wall;
 };
 
+/// Long before a flight begins.
+inline constexpr double kNever_s = 1e9;
+
 struct CupState {
     CupStatus status;
     double mean_pressure_Pa =
         kAtmosphere_Pa;  ///< without ripple; the status adds the pump's ripple
     Anchor anchor;
     SealDemand demand;
-    bool pump_resting = false;  ///< a cycling pump between two refills
-    double leak_growth = 0.0;   ///< of this seal, over its fresh leak
-    double worn_at_N = 0.0;     ///< pull of the step before
+    bool pump_resting = false;     ///< a cycling pump between two refills
+    double leak_growth = 0.0;      ///< of this seal, over its fresh leak
+    double worn_at_N = 0.0;        ///< pull of the step before
+    double pulled_N = 0.0;         ///< likewise, as the cup's volume felt it
+    double pump_on_s = -kNever_s;  ///< when it was last switched on
     int touches = 0;
     bool let_go_said = false;  ///< of this touch: lifting off is no more news
     RandomStream random;
@@ -130,6 +136,10 @@ struct LipNow {
 /// @return on the cup about the lip's centre, in W
 [[nodiscard]] Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
                               const CupInput& input, LipNow& lip);
+
+/// The pump is switched on, or was not long enough ago.
+[[nodiscard]] bool pump_turns(const CupParameters& parameters, const CupState& state,
+                              const CupInput& input);
 
 /// Whether the vacuum acts between lip and wall.
 [[nodiscard]] bool is_sealed(CupPhase phase);

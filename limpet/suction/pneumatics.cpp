@@ -145,9 +145,14 @@ Linear linear_law(const Pump& pump, std::span<const CupAir> cups,
     for (std::size_t k = 0; k < cups.size(); ++k) {
         const Inflow in = inflow(cups[k], pressures_Pa[k]);
         const HoseFlow hose = hose_flow(cups[k].hose, pressures_Pa[k], manifold_Pa);
-        law.rate_Pa_s[k] = (in.flow_Pa_m3_s - hose.flow_Pa_m3_s) / cups[k].volume_m3;
-        law.own[k] = (in.slope_m3_s - hose.by_cup) / cups[k].volume_m3;
-        law.by_manifold[k] = -hose.by_manifold / cups[k].volume_m3;
+        const double give_m3_Pa = cups[k].gives_way_m3_Pa;
+        // d(P V)/dP: as the air leaves, the volume does too.
+        const double volume_m3 =
+            cups[k].volume_m3 + give_m3_Pa * (2.0 * pressures_Pa[k] - cups[k].ambient_Pa);
+        law.rate_Pa_s[k] = (in.flow_Pa_m3_s - hose.flow_Pa_m3_s) / volume_m3;
+        law.own[k] =
+            (in.slope_m3_s - hose.by_cup - 2.0 * give_m3_Pa * law.rate_Pa_s[k]) / volume_m3;
+        law.by_manifold[k] = -hose.by_manifold / volume_m3;
         law.follows[k] = slope_m3_s > 0.0 ? hose.by_cup / slope_m3_s : 0.0;
     }
     return law;
@@ -197,6 +202,11 @@ void advance_piece(const Pump& pump, std::span<const CupAir> cups, std::span<dou
     }
 }
 
+/// What a pull adds to a soft cup's volume.
+double stretched_m3(const PneumaticParameters& parameters, double press_N) {
+    return 1e-6 * parameters.cup_stretch_cm3_N * std::max(0.0, -press_N);
+}
+
 }  // namespace
 
 const ParameterTable<PneumaticParameters>& Pneumatic::table() {
@@ -214,6 +224,15 @@ const ParameterTable<PneumaticParameters>& Pneumatic::table() {
          "pneumatic: and starts again above it", "as pump_stop_Pa"},
         {"cup_volume_cm3", "cm^3", 0.1, 1e5, &P::cup_volume_cm3, "pneumatic: air in cup and hose",
          "assumed: 80 mm cup 12 mm high; with the pump it gives tau_1 of the blade"},
+        {"cup_gives_way", "-", 0.0, 1.0, &P::cup_gives_way,
+         "pneumatic: share of cup_volume_cm3 that a full vacuum squeezes out of a soft cup or "
+         "bellows, in proportion; at 1 with a pump that goes far down the pressure falls in a line",
+         "assumed: 0, rigid; a drone's cup on a wall fell in a line (data/others/sealing.yaml)"},
+        {"cup_stretch_cm3_N", "cm^3/N", 0.0, 10.0, &P::cup_stretch_cm3_N,
+         "pneumatic: volume that each newton of pull adds to a soft cup, whose pressure falls "
+         "again: it clings without a pump until its leak fills it",
+         "assumed: 0, rigid; the lip's spring of 20 kN/m under 50 cm^2 gives 0.25, bellows ten "
+         "times that"},
         {"valve_bore_mm", "mm", 0.0, 100.0, &P::valve_bore_mm, "pneumatic: the open valve's bore",
          "facts.md item 20: 2 mm on 60 cm^3"},
         {"hose_bore_mm", "mm", 0.0, 100.0, &P::hose_bore_mm,
@@ -290,7 +309,10 @@ Pump pump_of(const PneumaticParameters& parameters, bool running) {
 CupAir sealed_cup(const PneumaticParameters& parameters, const Surface& surface, double radius_m,
                   double press_N, bool valve_open) {
     const double valve_m = valve_open ? 1e-3 * parameters.valve_bore_mm : 0.0;
-    return {.volume_m3 = 1e-6 * (parameters.cup_volume_cm3 + surface.pore_volume_cm3),
+    const double cup_m3 = 1e-6 * parameters.cup_volume_cm3;
+    return {.volume_m3 = 1e-6 * (parameters.cup_volume_cm3 + surface.pore_volume_cm3) +
+                         stretched_m3(parameters, press_N),
+            .gives_way_m3_Pa = parameters.cup_gives_way * cup_m3 / kAtmosphere_Pa,
             .hose = hose_of(parameters.hose_bore_mm, parameters.hose_length_m),
             .leak_100_m3_s = leak_conductance_m3_s(surface, kLeakReference_N),
             .leak_exponent = surface.leak_clamping_exponent,
@@ -353,7 +375,14 @@ double Pneumatic::next_Pa(const Parameters& parameters, const SealedAir& air, do
     cup.ambient_Pa = air.ambient_Pa;
     cup.leak_100_m3_s *= 1.0 + air.leak_growth;
     cup.uneven_N = parameters.graded_seal ? 2.0 * air.peel_N_m / air.radius_m : 0.0;
-    return pressure_after(pump_of(parameters, air.pump_running), cup, air.pressure_Pa, dt_s);
+    // As much air in what is now more or less room; a lip lets out what is above the atmosphere.
+    const double before_m3 = cup.volume_m3 - stretched_m3(parameters, air.press_N) +
+                             stretched_m3(parameters, air.press_before_N);
+    const double pressure_Pa = before_m3 == cup.volume_m3
+                                   ? air.pressure_Pa
+                                   : std::min(air.pressure_Pa * before_m3 / cup.volume_m3,
+                                              std::max(air.pressure_Pa, air.ambient_Pa));
+    return pressure_after(pump_of(parameters, air.pump_running), cup, pressure_Pa, dt_s);
 }
 
 }  // namespace limpet::suction

@@ -27,6 +27,9 @@ namespace limpet::suction {
 //   hole   orifice, choked below 0.53 P_atm
 //   hose   isothermal: P^2 - P_m^2 = Q ((l)^4 + (t Q)^4)^(1/4) + e Q^2, Poiseuille's l below a
 //          Reynolds number of some 2000 and a turbulent t above it, e lost at the ends
+//   soft   a cup that gives way, V(P) = V_0 - c (P_atm - P), has d(P V)/dP = V_0 + c (2 P - P_atm)
+//          in the place of V: with c = V_0 / (P_atm - 2 P_ult) a pump alone draws a line;
+//          pulled it grows by s x pull, P V kept: it holds without a pump until its leak fills it
 
 struct PneumaticParameters {
     double pump_speed_L_min = 14.0;     ///< S
@@ -34,6 +37,8 @@ struct PneumaticParameters {
     double pump_stop_Pa = 26300.0;      ///< vacuum switch: an attached cup's pump stops below it
     double pump_restart_Pa = 29400.0;   ///< and starts again above it
     double cup_volume_cm3 = 60.0;       ///< with hose; the surface's pores come on top
+    double cup_gives_way = 0.0;         ///< share of it that a full vacuum squeezes out
+    double cup_stretch_cm3_N = 0.0;     ///< that a pull on a soft cup adds to it
     double valve_bore_mm = 2.0;
     double hose_bore_mm = 4.0;
     double hose_length_m = 0.5;
@@ -93,20 +98,21 @@ struct Pump {
 
 /// What lets air into one cup and out of it, over one step.
 struct CupAir {
-    double volume_m3 = 0.0;
-    Hose hose;                   ///< blocked by default
-    double leak_100_m3_s = 0.0;  ///< C_100
-    double leak_exponent = 0.0;  ///< m
-    double area_m2 = 0.0;        ///< on which the vacuum clamps
-    double press_N = 0.0;        ///< presses the lip beyond the vacuum, < 0: the vehicle pulls
-    double uneven_N = 0.0;       ///< 2 M / R, of a graded seal: e times what clamps
-    double hole_m2 = 0.0;        ///< to the atmosphere: unsealed part of the lip, open valve
-    double off_wall_m3_s = 0.0;  ///< conductance of the open mouth of a cup off the wall
+    double volume_m3 = 0.0;        ///< without a vacuum
+    double gives_way_m3_Pa = 0.0;  ///< c, of a soft cup
+    Hose hose;                     ///< blocked by default
+    double leak_100_m3_s = 0.0;    ///< C_100
+    double leak_exponent = 0.0;    ///< m
+    double area_m2 = 0.0;          ///< on which the vacuum clamps
+    double press_N = 0.0;          ///< presses the lip beyond the vacuum, < 0: the vehicle pulls
+    double uneven_N = 0.0;         ///< 2 M / R, of a graded seal: e times what clamps
+    double hole_m2 = 0.0;          ///< to the atmosphere: unsealed part of the lip, open valve
+    double off_wall_m3_s = 0.0;    ///< conductance of the open mouth of a cup off the wall
     double ambient_Pa = kAtmosphere_Pa;  ///< of the air around, of all cups on a pump the same
 };
 
 /// A cup that seals on a surface.
-/// @param press_N  as CupAir::press_N
+/// @param press_N  as CupAir::press_N; a pull stretches a soft cup
 [[nodiscard]] CupAir sealed_cup(const PneumaticParameters& parameters, const Surface& surface,
                                 double radius_m, double press_N, bool valve_open);
 

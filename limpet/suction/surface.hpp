@@ -43,7 +43,8 @@ struct SealedAir {
     bool valve_open = false;
     double hole_mm2 = 0.0;               ///< to the atmosphere, beyond the lip's own leak
     double ambient_Pa = kAtmosphere_Pa;  ///< of the air around
-    double leak_growth = 0.0;  ///< what the seal leaks more than when it was fresh, over that
+    double leak_growth = 0.0;     ///< what the seal leaks more than when it was fresh, over that
+    double press_before_N = 0.0;  ///< as press_N, a step ago; that of a fresh seal now
 };
 
 /// What this touch needs in order to seal: drawn when the lip meets the wall, because roughness and

@@ -43,7 +43,7 @@ const std::vector<std::string>& verbs() {
         "fly",       "sim-io",   "campaign", "merge",     "companion", "replay",     "summary",
         "reproduce", "identify", "check",    "list",      "params",    "px4-params", "plot",
         "film",      "csv",      "ulog",     "view",      "lab",       "compare",    "export",
-        "rotor",     "stand-in", "study",    "calibrate", "dossier"};
+        "rotor",     "stand-in", "study",    "calibrate", "dossier",   "validate"};
     return all;
 }
 

@@ -346,6 +346,44 @@ TEST(Faults, APressureThatDoesNotMoveAfterPumpOffKeepsItOnTheWall) {
     EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
 }
 
+/// A reading that comes back to what it was when the pump was switched off is no stuck sensor: a
+/// pump that runs on ripples about it.
+TEST(Faults, APumpThatRunsOnIsWaitedFor) {
+    Puppet puppet;
+    puppet.pump_runs_on_s = 6.0;
+    puppet.ripple_Pa = 600.0;
+    puppet.run(200.0);
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(reason_of_abort(puppet), "");
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::released);
+    EXPECT_GT(puppet.time_of(EventName::pressure_released) - puppet.time_of(EventName::pump_off),
+              6.0);
+}
+
+/// Off the pressure it leaves, and the cup holds again: it goes back to waiting, not on pulling.
+TEST(Faults, ACupThatSealsAgainWhileItLeavesIsWaitedForAgain) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::backing_off));
+    puppet.clings = true;
+    ASSERT_TRUE(puppet.run_to(PerchingState::releasing, 2.0));
+    EXPECT_EQ(reason_of_abort(puppet), "the cup seals again while it leaves");
+    EXPECT_FALSE(puppet.memory.setpoint.pump_on);
+    puppet.clings = false;
+    puppet.run(100.0);
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::released);
+}
+
+TEST(Faults, ACupThatNeverStopsSealingAgainEndsTheWaiting) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::backing_off));
+    puppet.clings = true;
+    puppet.run(400.0);
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
+    EXPECT_LE(puppet.memory.cup.sealed_again, puppet.parameters.attempts);
+}
+
 TEST(Faults, OneNoisySampleIsNoWeakVacuum) {
     Puppet puppet;
     ASSERT_TRUE(puppet.run_to(PerchingState::resting));

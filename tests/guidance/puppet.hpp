@@ -39,6 +39,9 @@ public:
     double misled_rad = 0.0;  ///< by so much the estimated heading is off
     double swing_deg = 0.0;   ///< pitch while waiting for the release
     double vacuum_Pa = 65000.0;
+    double pump_runs_on_s = 0.0;  ///< after it was switched off
+    double ripple_Pa = 0.0;       ///< of the reading, in turn up and down, while the pump draws
+    bool clings = false;          ///< the cup, whatever the pump and however the vehicle flies
 
     Puppet() { restart(); }
 
@@ -120,7 +123,7 @@ private:
         }
         estimate.q_WB =
             quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = yaw_rad + misled_rad});
-        if (hangs) {  // turns about the cup's joint
+        if (hangs || clings) {  // turns about the cup's joint
             estimate.p_WB_m = joint_W_m - estimate.q_WB * joint_B_m;
         } else {
             estimate.p_WB_m += v_W * kDt_s;
@@ -146,8 +149,10 @@ private:
             readings.force = {time_s, {touches ? -40.0 : 0.0}};
         }
         double& pressure_Pa = pressure_;
-        const bool sucks = memory.setpoint.pump_on && !memory.setpoint.valve_open;
-        if (touches && seals && sucks) {
+        pump_on_s_ = memory.setpoint.pump_on ? time_s : pump_on_s_;
+        const bool turns = time_s - pump_on_s_ < pump_runs_on_s || memory.setpoint.pump_on;
+        const bool sucks = turns && !memory.setpoint.valve_open;
+        if ((touches && seals && sucks) || clings) {
             pressure_Pa = vacuum_Pa + (pressure_Pa - vacuum_Pa) * std::exp(-kDt_s / 0.33);
         } else {
             const double tau_s = memory.setpoint.valve_open ? 0.04 : leak_tau_s;
@@ -155,11 +160,13 @@ private:
                 kAtmosphere_Pa + (pressure_Pa - kAtmosphere_Pa) * std::exp(-kDt_s / tau_s);
         }
         if (pressure_works) {
-            readings.cup_pressure = {time_s, {pressure_Pa}};
+            ripple_Pa = -ripple_Pa;
+            readings.cup_pressure = {time_s, {pressure_Pa + (turns ? ripple_Pa : 0.0)}};
         }
     }
 
     double pressure_ = kAtmosphere_Pa;
+    double pump_on_s_ = -1e9;
 };
 
 }  // namespace limpet::guidance

@@ -55,6 +55,35 @@ TEST(PerchMetalValve, IsReleasedAtOnce) {
     EXPECT_LT(trace.first(detached) - trace.first(valve_open), 0.3);
 }
 
+/// A pump that draws on for six seconds delays the release by them, and no more. In this flight a
+/// reading comes back to the first of the release, as that of a stuck sensor would.
+TEST(ReleaseRunsOn, IsWaitedFor) {
+    const auto release_s = [](const Trace& trace) {
+        return trace.first(detached) - trace.first(pump_off);
+    };
+    const Trace trace = simulation::trace(model_of("release_runs_on", {}, 5));
+    EXPECT_EQ(trace.result.outcome, Outcome::released);
+    EXPECT_TRUE(trace.times(aborted).empty());
+    EXPECT_NEAR(release_s(trace) - release_s(flown("perch_concrete")), 6.0, 0.3);
+}
+
+/// A soft cup clings with the pump off when it is pulled at: pulled on it is not off in the time
+/// that guidance has, waited for it is.
+TEST(ReleaseSoftCup, SealsAgainWhileItLeavesAndComesOff) {
+    const Trace& trace = flown("release_soft_cup");
+    EXPECT_EQ(trace.result.outcome, Outcome::released);
+    const auto again = trace.times(aborted);
+    ASSERT_FALSE(again.empty());
+    EXPECT_GT(again.front(), trace.first(pressure_released));
+    EXPECT_LT(trace.first(detached) - again.front(), 5.0);
+    EXPECT_GT(trace.times(pressure_released).size(), 1U);
+    // The same cup without stretch is off at once.
+    const Trace rigid =
+        simulation::trace(model_of("release_soft_cup", {"suction.cup_stretch_cm3_N=0"}));
+    EXPECT_EQ(rigid.result.outcome, Outcome::released);
+    EXPECT_TRUE(rigid.times(aborted).empty());
+}
+
 TEST(OscillationLimit, InterruptsTheRelease) {
     // A limit below what the take-off leaves behind stands for a swing that grew.
     const Trace trace =

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "surfaces.hpp"
@@ -90,6 +91,22 @@ TEST_F(CupOnTheWall, ReleasesAlongEquationSixAndReportsDetached) {
     hold(-0.01, 0.0, 0.001);
     ASSERT_EQ(events_.size(), 2U);
     EXPECT_EQ(events_[1].name, EventName::detached);
+}
+
+TEST_F(CupOnTheWall, APumpThatRunsOnHoldsTheVacuumSoLong) {
+    model_.parameters.pump_runs_on_s = 2.0;
+    hold(0.001, 40.0, 3.0);
+    const double held_Pa = state_.mean_pressure_Pa;
+    input_.pump_on = false;
+    hold(0.001, 0.0, 1.99);
+    EXPECT_EQ(phase(), CupPhase::attached);
+    EXPECT_TRUE(state_.status.pump_running);
+    EXPECT_NEAR(state_.mean_pressure_Pa, held_Pa, 50.0);
+    hold(0.001, 0.0, 0.41);
+    EXPECT_EQ(phase(), CupPhase::unsealing);
+    EXPECT_FALSE(state_.status.pump_running);
+    EXPECT_NEAR(kAtmosphere_Pa - state_.mean_pressure_Pa,
+                (kAtmosphere_Pa - held_Pa) * std::exp(-1.0), 0.02 * (kAtmosphere_Pa - held_Pa));
 }
 
 TEST_F(CupOnTheWall, PumpOnAgainSealsAgain) {

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "limpet/measured/measured.hpp"
+
+namespace limpet::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using measured::Comparison;
+using measured::Measurement;
+
+struct ValidateOptions {
+    bool notes = false;
+    bool json = false;
+};
+
+/// "tau_s 1.05", "-": nothing.
+std::string fitted_text(const Measurement& row, const Comparison& found) {
+    return found.fitted ? fmt::format("{} {:.3g}", row.law->fits, *found.fitted) : "-";
+}
+
+std::size_t points_of(const Measurement& row) {
+    std::size_t points = 0;
+    for (const measured::Series& series : row.series) {
+        points += series.x.size();
+    }
+    return points;
+}
+
+void print_row(const ValidateOptions& options, const Measurement& row, const Comparison& found) {
+    fmt::print("  {:<27} {:>6}  {:>7.3g}  {:>7.3g}  {:>6.2g}  {:<8} {}\n", row.id, points_of(row),
+               found.rms, found.largest, row.holds_within, found.holds ? "holds" : "differs",
+               fitted_text(row, found));
+    if (options.notes) {
+        fmt::print("      {} [{}]\n      {}\n", row.what, row.unit, row.source);
+        fmt::print("      within {:g}: {}\n", row.holds_within, row.because);
+        if (!row.note.empty()) {
+            fmt::print("      {}\n", row.note);
+        }
+    }
+}
+
+void print_text(const ValidateOptions& options, const measured::Measurements& all,
+                const std::vector<Comparison>& found) {
+    std::size_t holding = 0;
+    std::string group;
+    fmt::print("  {:<27} {:>6}  {:>7}  {:>7}  {:>6}  {:<8} {}\n", "measured by others", "points",
+               "rms", "largest", "within", "verdict", "fitted");
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (all.rows[i].group != group) {
+            group = all.rows[i].group;
+            fmt::print("{}\n", group);
+        }
+        print_row(options, all.rows[i], found[i]);
+        holding += found[i].holds ? 1 : 0;
+    }
+    fmt::print("{} rows hold, {} differ; {} sources were looked at and not used\n", holding,
+               found.size() - holding, all.looked_at.size());
+    if (options.notes) {
+        for (const measured::LookedAt& source : all.looked_at) {
+            fmt::print("  {}\n      {}\n      {}\n", source.what, source.where, source.why);
+        }
+    }
+}
+
+Json json_of(const Measurement& row, const Comparison& found) {
+    Json series = Json::array();
+    for (std::size_t k = 0; k < row.series.size(); ++k) {
+        const measured::Series& one = row.series[k];
+        series.push_back(
+            {{"numbers", one.numbers}, {"x", one.x}, {"measured", one.y}, {"said", found.said[k]}});
+    }
+    return {{"id", row.id},
+            {"group", row.group},
+            {"what", row.what},
+            {"source", row.source},
+            {"x", row.x},
+            {"unit", row.unit},
+            {"law", row.law->name},
+            {"fits", found.fitted ? Json(row.law->fits) : Json()},
+            {"fitted", found.fitted ? Json(*found.fitted) : Json()},
+            {"rms", found.rms},
+            {"largest", found.largest},
+            {"holds_within", row.holds_within},
+            {"because", row.because},
+            {"holds", found.holds},
+            {"note", row.note},
+            {"series", series}};
+}
+
+void print_json(const measured::Measurements& all, const std::vector<Comparison>& found) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        rows.push_back(json_of(all.rows[i], found[i]));
+    }
+    Json looked_at = Json::array();
+    for (const measured::LookedAt& source : all.looked_at) {
+        looked_at.push_back({{"what", source.what}, {"where", source.where}, {"why", source.why}});
+    }
+    const Json json = {{"rows", rows}, {"looked_at", looked_at}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+OptionList options_of(ValidateOptions& options) {
+    return {{"--notes", &options.notes,
+             "of each row what was measured by whom, and why it differs; what was\n"
+             "looked at and not used"},
+            {"--json", &options.json, "one JSON object on standard output, with every point"}};
+}
+
+void validate(const ValidateOptions& options) {
+    const measured::Measurements all = measured::load_measurements(measured::others_folder());
+    std::vector<Comparison> found;
+    for (const Measurement& row : all.rows) {
+        found.push_back(compare(row));
+    }
+    options.json ? print_json(all, found) : print_text(options, all, found);
+}
+
+}  // namespace
+
+Verb validate_verb() {
+    return verb<ValidateOptions>(
+        "validate", "Hold what others measured against the models, with nothing turned for it",
+        options_of, validate,
+        "rms and largest: of model less measured, in the unit of the row. Nothing is turned but "
+        "the\n"
+        "number under `fitted`.\n");
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/measured/measured.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limpet::measured {
+namespace {
+
+std::vector<std::vector<double>> said_with(const Measurement& measurement,
+                                           std::optional<double> fitted) {
+    std::vector<std::vector<double>> said;
+    for (const Series& series : measurement.series) {
+        Numbers numbers = series.numbers;
+        if (fitted) {
+            numbers[std::string(measurement.law->fits)] = *fitted;
+        }
+        said.push_back(measurement.law->say(numbers, series.x));
+    }
+    return said;
+}
+
+double squares(const Measurement& measurement, const std::vector<std::vector<double>>& said) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < said.size(); ++k) {
+        for (std::size_t i = 0; i < said[k].size(); ++i) {
+            const double error = said[k][i] - measurement.series[k].y[i];
+            sum += error * error;
+        }
+    }
+    return sum;
+}
+
+/// The least of the squares over the logarithm of the number: a coarse scan, then sections.
+double best_fit(const Measurement& measurement) {
+    constexpr int kScan = 24;
+    constexpr int kSections = 40;
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    const double from = std::log(measurement.law->fits_from);
+    const double to = std::log(measurement.law->fits_to);
+    const auto left = [&](double logarithm) {
+        return squares(measurement, said_with(measurement, std::exp(logarithm)));
+    };
+    const double stride = (to - from) / kScan;
+    double best = from;
+    double least = left(from);
+    for (int k = 1; k <= kScan; ++k) {
+        const double at = from + k * stride;
+        if (const double squared = left(at); squared < least) {
+            least = squared;
+            best = at;
+        }
+    }
+    double low = std::max(from, best - stride);
+    double high = std::min(to, best + stride);
+    double a = high - golden * (high - low);
+    double b = low + golden * (high - low);
+    double at_a = left(a);
+    double at_b = left(b);
+    for (int k = 0; k < kSections; ++k) {
+        if (at_a < at_b) {
+            high = b;
+            b = a;
+            at_b = at_a;
+            a = high - golden * (high - low);
+            at_a = left(a);
+        } else {
+            low = a;
+            a = b;
+            at_a = at_b;
+            b = low + golden * (high - low);
+            at_b = left(b);
+        }
+    }
+    return std::exp(0.5 * (low + high));
+}
+
+bool is_given(const Measurement& measurement) {
+    return measurement.series.front().numbers.count(std::string(measurement.law->fits)) > 0;
+}
+
+}  // namespace
+
+Comparison compare(const Measurement& measurement) {
+    Comparison found;
+    if (!measurement.law->fits.empty() && !is_given(measurement)) {
+        found.fitted = best_fit(measurement);
+    }
+    found.said = said_with(measurement, found.fitted);
+    std::size_t points = 0;
+    for (std::size_t k = 0; k < found.said.size(); ++k) {
+        points += found.said[k].size();
+        for (std::size_t i = 0; i < found.said[k].size(); ++i) {
+            found.largest =
+                std::max(found.largest, std::abs(found.said[k][i] - measurement.series[k].y[i]));
+        }
+    }
+    found.rms = std::sqrt(squares(measurement, found.said) / static_cast<double>(points));
+    found.holds = found.rms <= measurement.holds_within;
+    return found;
+}
+
+}  // namespace limpet::measured

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What others measured on hardware that is not the paper's, held against the models of the
+/// product. Nothing is turned for a row but the one number that it names as fitted.
+namespace limpet::measured {
+
+/// By name: "tilt_deg", "pump_ultimate_Pa".
+using Numbers = std::map<std::string, double>;
+
+/// A model's answer to a measurement.
+struct Law {
+    std::string_view name;
+    std::vector<std::string_view> needs;   ///< numbers that a series must have
+    std::vector<std::string_view> allows;  ///< and may have
+    /// The number that is fitted where it is not given; empty: the law has none.
+    std::string_view fits = {};
+    double fits_from = 0.0, fits_to = 0.0;  ///< > 0, where it is looked for
+    /// @param numbers  with the fitted one
+    /// @param x        rising
+    /// @return as many
+    std::vector<double> (*say)(const Numbers& numbers, std::span<const double> x) = nullptr;
+};
+/// All, by name.
+[[nodiscard]] std::span<const Law> laws();
+
+/// Points of one run of an experiment.
+struct Series {
+    Numbers numbers = {};
+    std::vector<double> x = {};
+    std::vector<double> y = {};
+};
+
+/// One row of the table.
+struct Measurement {
+    std::string id = {};
+    std::string group = {};   ///< the file's name: "ground"
+    std::string what = {};    ///< was measured
+    std::string source = {};  ///< by whom, where it stands, and its licence
+    std::string x = {};       ///< "z/R [-]"
+    std::string unit = {};    ///< of y
+    const Law* law = nullptr;
+    std::vector<Series> series = {};
+    double holds_within = 0.0;  ///< root mean square of the error, in the unit
+    std::string because = {};   ///< why so much
+    std::string note = {};      ///< what differs and why; may be empty
+};
+
+/// What was found and could not be used.
+struct LookedAt {
+    std::string what = {};
+    std::string where = {};
+    std::string why = {};
+};
+
+struct Measurements {
+    std::vector<Measurement> rows = {};
+    std::vector<LookedAt> looked_at = {};
+};
+
+/// Every file of a folder like data/others, by name; the head of ground.yaml describes the keys.
+/// @throws InputError for what is not so: an unknown key or law, a number that the law has no use
+/// for or lacks, x that does not rise, lists of different lengths
+[[nodiscard]] Measurements load_measurements(const std::filesystem::path& folder);
+/// Of the data.
+[[nodiscard]] std::filesystem::path others_folder();
+
+/// A measurement, and what its law says of it.
+struct Comparison {
+    std::vector<std::vector<double>> said = {};  ///< of each series, at its x
+    std::optional<double> fitted = {};
+    double rms = 0.0;      ///< of said less measured, over all points
+    double largest = 0.0;  ///< of their magnitudes
+    bool holds = false;
+};
+/// A number is fitted to all series together, by least squares.
+[[nodiscard]] Comparison compare(const Measurement& measurement);
+
+}  // namespace limpet::measured

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "limpet/measured/measured.hpp"
+#include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/suggestion.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet::measured {
+namespace {
+
+using scenario::YamlNode;
+
+double number(const YamlNode& node) {
+    const std::optional<double> value = scenario::number_in(node);
+    if (!value || !std::isfinite(*value)) {
+        fail(node, "must be a finite number");
+    }
+    return *value;
+}
+
+std::vector<double> numbers_of(const YamlNode& node) {
+    std::vector<double> values;
+    for (const YamlNode& item : scenario::read_list(node, "a list of numbers", 1)) {
+        values.push_back(number(item));
+    }
+    return values;
+}
+
+const Law& law_of(const YamlNode& node) {
+    std::vector<std::string_view> names;
+    for (const Law& law : laws()) {
+        names.push_back(law.name);
+    }
+    return laws()[scenario::read_one_of(node, names)];
+}
+
+/// Of a measurement, and of a series on top of them.
+void read_numbers(const YamlNode& map, const Law& law, Numbers& numbers) {
+    const YamlNode* section = map.find("numbers");
+    if (section == nullptr) {
+        return;
+    }
+    std::vector<std::string_view> known = law.needs;
+    known.insert(known.end(), law.allows.begin(), law.allows.end());
+    if (!law.fits.empty()) {
+        known.push_back(law.fits);
+    }
+    check_keys(*section, known);
+    for (const YamlNode& entry : section->children) {
+        numbers[entry.key] = number(entry);
+    }
+}
+
+void require_numbers(const YamlNode& node, const Law& law, const Numbers& numbers) {
+    for (const std::string_view name : law.needs) {
+        if (numbers.count(std::string(name)) == 0) {
+            fail(node, fmt::format("lacks the number {}, which {} needs", name, law.name));
+        }
+    }
+}
+
+Series read_series(const YamlNode& map, const Law& law, const Numbers& of_all) {
+    check_keys(map, {"numbers", "x", "y"});
+    Series series{
+        .numbers = of_all, .x = numbers_of(needed(map, "x")), .y = numbers_of(needed(map, "y"))};
+    read_numbers(map, law, series.numbers);
+    require_numbers(map, law, series.numbers);
+    if (series.x.size() != series.y.size()) {
+        fail(needed(map, "y"), fmt::format("must have {} numbers, as x has", series.x.size()));
+    }
+    if (std::adjacent_find(series.x.begin(), series.x.end(), std::greater_equal<>()) !=
+        series.x.end()) {
+        fail(needed(map, "x"), "must rise");
+    }
+    return series;
+}
+
+/// Those of a row above, with the numbers that this one has for all of them.
+std::vector<Series> series_of(const YamlNode& node, const std::vector<Measurement>& above,
+                              const std::string& group, const Law& law, const Numbers& of_all) {
+    const std::string id = read_text(node);
+    const auto row = std::find_if(above.begin(), above.end(), [&](const Measurement& other) {
+        return other.group == group && other.id == id;
+    });
+    if (row == above.end()) {
+        fail(node, "is no row above in this file");
+    }
+    std::vector<Series> series = row->series;
+    for (Series& one : series) {
+        for (const auto& [name, value] : of_all) {
+            one.numbers[name] = value;
+        }
+        require_numbers(node, law, one.numbers);
+    }
+    return series;
+}
+
+Measurement read_measurement(const YamlNode& map, const std::string& group,
+                             const std::vector<Measurement>& above) {
+    check_keys(map, {"what", "source", "x", "unit", "law", "numbers", "holds_within", "because",
+                     "note", "series"});
+    Measurement row{.id = map.key,
+                    .group = group,
+                    .what = read_text(needed(map, "what")),
+                    .source = read_text(needed(map, "source")),
+                    .x = read_text(needed(map, "x")),
+                    .unit = read_text(needed(map, "unit")),
+                    .law = &law_of(needed(map, "law")),
+                    .holds_within = number(needed(map, "holds_within")),
+                    .because = read_text(needed(map, "because"))};
+    if (row.holds_within <= 0.0) {
+        fail(needed(map, "holds_within"), "must be above 0");
+    }
+    read_given(map, "note", row.note);
+    Numbers of_all;
+    read_numbers(map, *row.law, of_all);
+    const YamlNode& series = needed(map, "series");
+    if (series.kind == YamlNode::Kind::scalar) {
+        row.series = series_of(series, above, group, *row.law, of_all);
+        return row;
+    }
+    for (const YamlNode& item :
+         read_list(series, "a list of series, or the name of a row above", 1)) {
+        row.series.push_back(read_series(item, *row.law, of_all));
+    }
+    return row;
+}
+
+void read_looked_at(const YamlNode& list, std::vector<LookedAt>& looked_at) {
+    for (const YamlNode& item : read_list(list, "a list of what was looked at")) {
+        check_keys(item, {"what", "where", "why"});
+        looked_at.push_back({.what = read_text(needed(item, "what")),
+                             .where = read_text(needed(item, "where")),
+                             .why = read_text(needed(item, "why"))});
+    }
+}
+
+}  // namespace
+
+std::filesystem::path others_folder() {
+    return scenario::data_root() / "others";
+}
+
+Measurements load_measurements(const std::filesystem::path& folder) {
+    Measurements read;
+    for (const std::string& name : scenario::names_in(folder)) {
+        const YamlNode root = scenario::parse_yaml_file(folder / (name + ".yaml"));
+        if (!is_section(&root)) {
+            continue;
+        }
+        for (const YamlNode& entry : root.children) {
+            if (entry.key == "looked_at") {
+                read_looked_at(entry, read.looked_at);
+            } else {
+                read.rows.push_back(read_measurement(entry, name, read.rows));
+            }
+        }
+    }
+    return read;
+}
+
+}  // namespace limpet::measured
