@@ -11,6 +11,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/px4/airframe.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
