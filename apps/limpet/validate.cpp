@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +17,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using measured::Comparison;
 using measured::Measurement;
+using measured::Verdict;
 
 struct ValidateOptions {
+    std::string folder;
     bool notes = false;
     bool json = false;
 };
@@ -23,6 +28,10 @@ struct ValidateOptions {
 /// "tau_s 1.05", "-": nothing.
 std::string fitted_text(const Measurement& row, const Comparison& found) {
     return found.fitted ? fmt::format("{} {:.3g}", row.law->fits, *found.fitted) : "-";
+}
+
+std::string or_dash(std::optional<double> value, const char* form) {
+    return value ? fmt::format(fmt::runtime(form), *value) : "-";
 }
 
 std::size_t points_of(const Measurement& row) {
@@ -34,12 +43,12 @@ std::size_t points_of(const Measurement& row) {
 }
 
 void print_row(const ValidateOptions& options, const Measurement& row, const Comparison& found) {
-    fmt::print("  {:<27} {:>6}  {:>7.3g}  {:>7.3g}  {:>6.2g}  {:<8} {}\n", row.id, points_of(row),
-               found.rms, found.largest, row.holds_within, found.holds ? "holds" : "differs",
-               fitted_text(row, found));
+    fmt::print("  {:<27} {:>6}  {:>7.3g}  {:>7.3g}  {:>7}  {:>7}  {:<7}  {}\n", row.id,
+               points_of(row), found.rms, found.largest, or_dash(row.scatter, "{:.2g}"),
+               or_dash(found.p, "{:.2f}"), to_string(found.verdict), fitted_text(row, found));
     if (options.notes) {
         fmt::print("      {} [{}]\n      {}\n", row.what, row.unit, row.source);
-        fmt::print("      within {:g}: {}\n", row.holds_within, row.because);
+        fmt::print("      scatter {}: {}\n", or_dash(row.scatter, "{:g}"), row.scatter_of);
         if (!row.note.empty()) {
             fmt::print("      {}\n", row.note);
         }
@@ -48,25 +57,30 @@ void print_row(const ValidateOptions& options, const Measurement& row, const Com
 
 void print_text(const ValidateOptions& options, const measured::Measurements& all,
                 const std::vector<Comparison>& found) {
-    std::size_t holding = 0;
+    std::map<Verdict, std::size_t> count;
     std::string group;
-    fmt::print("  {:<27} {:>6}  {:>7}  {:>7}  {:>6}  {:<8} {}\n", "measured by others", "points",
-               "rms", "largest", "within", "verdict", "fitted");
+    fmt::print("  {:<27} {:>6}  {:>7}  {:>7}  {:>7}  {:>7}  {:<7}  {}\n", "measured by others",
+               "points", "rms", "largest", "scatter", "p", "verdict", "fitted");
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (all.rows[i].group != group) {
             group = all.rows[i].group;
             fmt::print("{}\n", group);
         }
         print_row(options, all.rows[i], found[i]);
-        holding += found[i].holds ? 1 : 0;
+        ++count[found[i].verdict];
     }
-    fmt::print("{} rows hold, {} differ; {} sources were looked at and not used\n", holding,
-               found.size() - holding, all.looked_at.size());
+    fmt::print("{} rows hold, {} differ, {} open; {} sources were looked at and not used\n",
+               count[Verdict::holds], count[Verdict::differs], count[Verdict::open],
+               all.looked_at.size());
     if (options.notes) {
         for (const measured::LookedAt& source : all.looked_at) {
             fmt::print("  {}\n      {}\n      {}\n", source.what, source.where, source.why);
         }
     }
+}
+
+Json or_null(std::optional<double> value) {
+    return value ? Json(*value) : Json();
 }
 
 Json json_of(const Measurement& row, const Comparison& found) {
@@ -84,12 +98,13 @@ Json json_of(const Measurement& row, const Comparison& found) {
             {"unit", row.unit},
             {"law", row.law->name},
             {"fits", found.fitted ? Json(row.law->fits) : Json()},
-            {"fitted", found.fitted ? Json(*found.fitted) : Json()},
+            {"fitted", or_null(found.fitted)},
             {"rms", found.rms},
             {"largest", found.largest},
-            {"holds_within", row.holds_within},
-            {"because", row.because},
-            {"holds", found.holds},
+            {"scatter", or_null(row.scatter)},
+            {"scatter_of", row.scatter_of},
+            {"p", or_null(found.p)},
+            {"verdict", to_string(found.verdict)},
             {"note", row.note},
             {"series", series}};
 }
@@ -108,14 +123,18 @@ void print_json(const measured::Measurements& all, const std::vector<Comparison>
 }
 
 OptionList options_of(ValidateOptions& options) {
-    return {{"--notes", &options.notes,
+    return {{"folder FOLDER", &options.folder,
+             "of measurements of your own, in files like those of data/others; without it those",
+             optional()},
+            {"--notes", &options.notes,
              "of each row what was measured by whom, and why it differs; what was\n"
              "looked at and not used"},
             {"--json", &options.json, "one JSON object on standard output, with every point"}};
 }
 
 void validate(const ValidateOptions& options) {
-    const measured::Measurements all = measured::load_measurements(measured::others_folder());
+    const measured::Measurements all = measured::load_measurements(
+        options.folder.empty() ? measured::others_folder() : std::filesystem::path(options.folder));
     std::vector<Comparison> found;
     for (const Measurement& row : all.rows) {
         found.push_back(compare(row));
@@ -129,9 +148,11 @@ Verb validate_verb() {
     return verb<ValidateOptions>(
         "validate", "Hold what others measured against the models, with nothing turned for it",
         options_of, validate,
-        "rms and largest: of model less measured, in the unit of the row. Nothing is turned but "
-        "the\n"
-        "number under `fitted`.\n");
+        "rms and largest: of model less measured, in the unit of the row; scatter: of the\n"
+        "measurement itself, a standard deviation; p: that scatter alone makes such errors.\n"
+        "holds: p is 0.01 or more. differs: it is less. open: no scatter is known, or one so\n"
+        "large that no effect at all would hold as well. Nothing is turned but the number\n"
+        "under `fitted`. What differs is no failure of the command: it exits with 0.\n");
 }
 
 }  // namespace limpet::app

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "limpet/core/frames.hpp"
+#include "limpet/core/rotor_list.hpp"
 #include "limpet/measured/measured.hpp"
 #include "limpet/suction/pneumatics.hpp"
 #include "limpet/suction/pressure.hpp"
@@ -32,11 +33,33 @@ std::vector<double> each(std::span<const double> x, Value value) {
 
 // --- air ----------------------------------------------------------------------------------------
 
-/// As thrust_gains() has it: the gain fades with the cosine of the tilt.
+/// Mean over rotors of a radius of 1 m, whose middle is x above the ground; tilted as a whole.
+std::vector<double> ground_of(const RotorList<vehicle::Rotor>& rotors, bool neighbours,
+                              const Numbers& numbers, std::span<const double> x) {
+    vehicle::AirframeNumbers airframe;
+    airframe.rotor.radius_m = 1.0;
+    airframe.rotors = rotors;
+    const vehicle::NearnessModel model = vehicle::make_nearness(
+        {.ground_effect = true, .ground_neighbours = neighbours}, /*ground_z_W_m=*/0.0);
+    Kinematics base;
+    base.q_WF = quaternion_from_euler({.roll_rad = radians(given(numbers, "tilt_deg", 0.0))});
+    return each(x, [&](double radii) {
+        base.p_WF_m.z() = -radii;
+        return vehicle::mean_thrust_gain(model, airframe, base);
+    });
+}
+
 std::vector<double> ground(const Numbers& numbers, std::span<const double> x) {
-    const double upright = std::cos(radians(given(numbers, "tilt_deg", 0.0)));
-    return each(
-        x, [upright](double radii) { return 1.0 + upright * (vehicle::ground_gain(radii) - 1.0); });
+    return ground_of({vehicle::Rotor{}}, false, numbers, x);
+}
+
+/// Two or four rotors so far apart, with environment.ground_neighbours.
+std::vector<double> ground_neighbours(const Numbers& numbers, std::span<const double> x) {
+    const double half = 0.5 * numbers.at("spacing_radii");
+    const RotorList<vehicle::Rotor> two = {{{0.0, half, 0.0}}, {{0.0, -half, 0.0}}};
+    const RotorList<vehicle::Rotor> four = {
+        {{half, half, 0.0}}, {{half, -half, 0.0}}, {{-half, half, 0.0}}, {{-half, -half, 0.0}}};
+    return ground_of(numbers.at("rotors") > 2.0 ? four : two, true, numbers, x);
 }
 
 std::vector<double> ceiling(const Numbers& /*numbers*/, std::span<const double> x) {
@@ -111,11 +134,19 @@ std::vector<double> motor_physical(const Numbers& numbers, std::span<const doubl
     });
 }
 
-const std::array<Law, 9> kLaws = {{
-    {.name = "ground", .needs = {}, .allows = {"tilt_deg"}, .say = ground},
-    {.name = "ceiling", .needs = {}, .allows = {}, .say = ceiling},
-    {.name = "wall_force", .needs = {}, .allows = {}, .say = wall_force},
-    {.name = "wall_moment", .needs = {}, .allows = {}, .say = wall_moment},
+const std::array<Law, 10> kLaws = {{
+    {.name = "ground", .needs = {}, .allows = {"tilt_deg"}, .without = 1.0, .say = ground},
+    {.name = "ground_neighbours",
+     .needs = {"rotors"},
+     .allows = {"tilt_deg"},
+     .without = 1.0,
+     .fits = "spacing_radii",
+     .fits_from = 2.0,
+     .fits_to = 20.0,
+     .say = ground_neighbours},
+    {.name = "ceiling", .needs = {}, .allows = {}, .without = 1.0, .say = ceiling},
+    {.name = "wall_force", .needs = {}, .allows = {}, .without = 0.0, .say = wall_force},
+    {.name = "wall_moment", .needs = {}, .allows = {}, .without = 0.0, .say = wall_moment},
     {.name = "sealing_first_order",
      .needs = {},
      .allows = {"seen_share"},

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limpet/core/errors.hpp"
+#include "limpet/statistics/success_curve.hpp"
+
 namespace limpet::measured {
 namespace {
 
@@ -75,11 +78,35 @@ double best_fit(const Measurement& measurement) {
     return std::exp(0.5 * (low + high));
 }
 
+/// Of a sum of squares, against the measurement's scatter.
+double chance(const Measurement& measurement, double squared, int degrees) {
+    const double scatter = *measurement.scatter;
+    return statistics::chi_squared_beyond(squared / (scatter * scatter), degrees);
+}
+
+/// Of a law that says nothing at all.
+double squares_without(const Measurement& measurement) {
+    std::vector<std::vector<double>> said;
+    for (const Series& series : measurement.series) {
+        said.emplace_back(series.x.size(), *measurement.law->without);
+    }
+    return squares(measurement, said);
+}
+
 bool is_given(const Measurement& measurement) {
     return measurement.series.front().numbers.count(std::string(measurement.law->fits)) > 0;
 }
 
 }  // namespace
+
+std::string_view to_string(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::holds: return "holds";
+        case Verdict::differs: return "differs";
+        case Verdict::open: return "open";
+    }
+    throw InternalError("no such verdict");
+}
 
 Comparison compare(const Measurement& measurement) {
     Comparison found;
@@ -87,16 +114,27 @@ Comparison compare(const Measurement& measurement) {
         found.fitted = best_fit(measurement);
     }
     found.said = said_with(measurement, found.fitted);
-    std::size_t points = 0;
+    int points = 0;
     for (std::size_t k = 0; k < found.said.size(); ++k) {
-        points += found.said[k].size();
+        points += static_cast<int>(found.said[k].size());
         for (std::size_t i = 0; i < found.said[k].size(); ++i) {
             found.largest =
                 std::max(found.largest, std::abs(found.said[k][i] - measurement.series[k].y[i]));
         }
     }
-    found.rms = std::sqrt(squares(measurement, found.said) / static_cast<double>(points));
-    found.holds = found.rms <= measurement.holds_within;
+    const double squared = squares(measurement, found.said);
+    found.rms = std::sqrt(squared / points);
+    const int degrees = points - (found.fitted ? 1 : 0);
+    if (!measurement.scatter || degrees < 1) {
+        return found;
+    }
+    found.p = chance(measurement, squared, degrees);
+    if (*found.p < kRare) {
+        found.verdict = Verdict::differs;
+    } else if (!measurement.law->without ||
+               chance(measurement, squares_without(measurement), points) < kRare) {
+        found.verdict = Verdict::holds;
+    }
     return found;
 }
 

@@ -21,6 +21,8 @@ struct Law {
     std::string_view name;
     std::vector<std::string_view> needs;   ///< numbers that a series must have
     std::vector<std::string_view> allows;  ///< and may have
+    /// What it says where there is nothing to say: a gain of 1, no force.
+    std::optional<double> without = {};
     /// The number that is fitted where it is not given; empty: the law has none.
     std::string_view fits = {};
     double fits_from = 0.0, fits_to = 0.0;  ///< > 0, where it is looked for
@@ -49,9 +51,11 @@ struct Measurement {
     std::string unit = {};    ///< of y
     const Law* law = nullptr;
     std::vector<Series> series = {};
-    double holds_within = 0.0;  ///< root mean square of the error, in the unit
-    std::string because = {};   ///< why so much
-    std::string note = {};      ///< what differs and why; may be empty
+    /// The measurement's own, of one point in the unit, as a standard deviation: what the same
+    /// measurement gives when it is repeated. None: the source gives none.
+    std::optional<double> scatter = {};
+    std::string scatter_of = {};  ///< what it was taken from, or why there is none
+    std::string note = {};        ///< what differs and why; may be empty
 };
 
 /// What was found and could not be used.
@@ -67,11 +71,21 @@ struct Measurements {
 };
 
 /// Every file of a folder like data/others, by name; the head of ground.yaml describes the keys.
-/// @throws InputError for what is not so: an unknown key or law, a number that the law has no use
+/// @throws InputError for what is not so: no file there, an unknown key or law, a number that the law has no use
 /// for or lacks, x that does not rise, lists of different lengths
 [[nodiscard]] Measurements load_measurements(const std::filesystem::path& folder);
 /// Of the data.
 [[nodiscard]] std::filesystem::path others_folder();
+
+enum class Verdict {
+    holds,    ///< scatter makes errors so large, or larger ones, in one case of kRare or more
+    differs,  ///< it does not: the measurement shows that the law is not all
+    open,     ///< no scatter is known, or one so large that Law::without would hold as well
+};
+[[nodiscard]] std::string_view to_string(Verdict verdict);
+
+/// Below this probability a row differs.
+inline constexpr double kRare = 0.01;
 
 /// A measurement, and what its law says of it.
 struct Comparison {
@@ -79,7 +93,10 @@ struct Comparison {
     std::optional<double> fitted = {};
     double rms = 0.0;      ///< of said less measured, over all points
     double largest = 0.0;  ///< of their magnitudes
-    bool holds = false;
+    /// That scatter alone makes the sum of squares so large (chi-squared, points less what was
+    /// fitted); points count as independent. None without a scatter.
+    std::optional<double> p = {};
+    Verdict verdict = Verdict::open;
 };
 /// A number is fitted to all series together, by least squares.
 [[nodiscard]] Comparison compare(const Measurement& measurement);

@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
+#include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/measured/measured.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/suggestion.hpp"
@@ -100,8 +104,8 @@ std::vector<Series> series_of(const YamlNode& node, const std::vector<Measuremen
 
 Measurement read_measurement(const YamlNode& map, const std::string& group,
                              const std::vector<Measurement>& above) {
-    check_keys(map, {"what", "source", "x", "unit", "law", "numbers", "holds_within", "because",
-                     "note", "series"});
+    check_keys(map, {"what", "source", "x", "unit", "law", "numbers", "scatter", "scatter_of", "note",
+                     "series"});
     Measurement row{.id = map.key,
                     .group = group,
                     .what = read_text(needed(map, "what")),
@@ -109,10 +113,12 @@ Measurement read_measurement(const YamlNode& map, const std::string& group,
                     .x = read_text(needed(map, "x")),
                     .unit = read_text(needed(map, "unit")),
                     .law = &law_of(needed(map, "law")),
-                    .holds_within = number(needed(map, "holds_within")),
-                    .because = read_text(needed(map, "because"))};
-    if (row.holds_within <= 0.0) {
-        fail(needed(map, "holds_within"), "must be above 0");
+                    .scatter_of = read_text(needed(map, "scatter_of"))};
+    if (const YamlNode* scatter = map.find("scatter")) {
+        row.scatter = number(*scatter);
+        if (*row.scatter <= 0.0) {
+            fail(*scatter, "must be above 0; leave it out where none is known");
+        }
     }
     read_given(map, "note", row.note);
     Numbers of_all;
@@ -146,6 +152,9 @@ std::filesystem::path others_folder() {
 
 Measurements load_measurements(const std::filesystem::path& folder) {
     Measurements read;
+    if (scenario::names_in(folder).empty()) {
+        throw InputError(shown(folder.string()) + ": holds no measurements, which are *.yaml");
+    }
     for (const std::string& name : scenario::names_in(folder)) {
         const YamlNode root = scenario::parse_yaml_file(folder / (name + ".yaml"));
         if (!is_section(&root)) {

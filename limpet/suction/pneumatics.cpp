@@ -145,8 +145,8 @@ Linear linear_law(const Pump& pump, std::span<const CupAir> cups,
     for (std::size_t k = 0; k < cups.size(); ++k) {
         const Inflow in = inflow(cups[k], pressures_Pa[k]);
         const HoseFlow hose = hose_flow(cups[k].hose, pressures_Pa[k], manifold_Pa);
-        const double give_m3_Pa = cups[k].gives_way_m3_Pa;
         // d(P V)/dP: as the air leaves, the volume does too.
+        const double give_m3_Pa = cups[k].gives_way_m3 / cups[k].ambient_Pa;
         const double volume_m3 =
             cups[k].volume_m3 + give_m3_Pa * (2.0 * pressures_Pa[k] - cups[k].ambient_Pa);
         law.rate_Pa_s[k] = (in.flow_Pa_m3_s - hose.flow_Pa_m3_s) / volume_m3;
@@ -205,6 +205,19 @@ void advance_piece(const Pump& pump, std::span<const CupAir> cups, std::span<dou
 /// What a pull adds to a soft cup's volume.
 double stretched_m3(const PneumaticParameters& parameters, double press_N) {
     return 1e-6 * parameters.cup_stretch_cm3_N * std::max(0.0, -press_N);
+}
+
+/// As much air in a cup whose volume without a vacuum was another before: P V is kept, of which the
+/// vacuum itself squeezes out its part. A lip lets out what is above the atmosphere.
+double stretched_Pa(const CupAir& cup, double before_m3, double pressure_Pa) {
+    const double give_m3_Pa = cup.gives_way_m3 / cup.ambient_Pa;
+    const double air_Pa_m3 =
+        pressure_Pa * (before_m3 - give_m3_Pa * (cup.ambient_Pa - pressure_Pa));
+    const double squeezed_m3 = cup.volume_m3 - cup.gives_way_m3;
+    const double here_Pa =
+        2.0 * air_Pa_m3 /
+        (squeezed_m3 + std::sqrt(squeezed_m3 * squeezed_m3 + 4.0 * give_m3_Pa * air_Pa_m3));
+    return std::min(here_Pa, std::max(pressure_Pa, cup.ambient_Pa));
 }
 
 }  // namespace
@@ -312,7 +325,7 @@ CupAir sealed_cup(const PneumaticParameters& parameters, const Surface& surface,
     const double cup_m3 = 1e-6 * parameters.cup_volume_cm3;
     return {.volume_m3 = 1e-6 * (parameters.cup_volume_cm3 + surface.pore_volume_cm3) +
                          stretched_m3(parameters, press_N),
-            .gives_way_m3_Pa = parameters.cup_gives_way * cup_m3 / kAtmosphere_Pa,
+            .gives_way_m3 = parameters.cup_gives_way * cup_m3,
             .hose = hose_of(parameters.hose_bore_mm, parameters.hose_length_m),
             .leak_100_m3_s = leak_conductance_m3_s(surface, kLeakReference_N),
             .leak_exponent = surface.leak_clamping_exponent,
@@ -375,13 +388,11 @@ double Pneumatic::next_Pa(const Parameters& parameters, const SealedAir& air, do
     cup.ambient_Pa = air.ambient_Pa;
     cup.leak_100_m3_s *= 1.0 + air.leak_growth;
     cup.uneven_N = parameters.graded_seal ? 2.0 * air.peel_N_m / air.radius_m : 0.0;
-    // As much air in what is now more or less room; a lip lets out what is above the atmosphere.
     const double before_m3 = cup.volume_m3 - stretched_m3(parameters, air.press_N) +
                              stretched_m3(parameters, air.press_before_N);
     const double pressure_Pa = before_m3 == cup.volume_m3
                                    ? air.pressure_Pa
-                                   : std::min(air.pressure_Pa * before_m3 / cup.volume_m3,
-                                              std::max(air.pressure_Pa, air.ambient_Pa));
+                                   : stretched_Pa(cup, before_m3, air.pressure_Pa);
     return pressure_after(pump_of(parameters, air.pump_running), cup, pressure_Pa, dt_s);
 }
 

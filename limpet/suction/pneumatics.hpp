@@ -99,7 +99,7 @@ struct Pump {
 /// What lets air into one cup and out of it, over one step.
 struct CupAir {
     double volume_m3 = 0.0;        ///< without a vacuum
-    double gives_way_m3_Pa = 0.0;  ///< c, of a soft cup
+    double gives_way_m3 = 0.0;     ///< c P_atm, of a soft cup
     Hose hose;                     ///< blocked by default
     double leak_100_m3_s = 0.0;    ///< C_100
     double leak_exponent = 0.0;    ///< m

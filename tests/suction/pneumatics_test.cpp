@@ -126,6 +126,35 @@ TEST(SoftCup, PulledItDrawsAVacuumOfItsOwn) {
     EXPECT_NEAR(air.pressure_Pa, kAtmosphere_Pa, 1.0);
 }
 
+/// P V is kept of a cup that gives way as well, whose volume the vacuum squeezes; a heavier
+/// atmosphere squeezes it no further than whole.
+TEST(SoftCup, PulledAndSqueezedItKeepsItsAir) {
+    PneumaticParameters parameters;
+    parameters.cup_stretch_cm3_N = 0.25;
+    parameters.cup_gives_way = 1.0;
+    Surface surface = tight_surface();
+    surface.leak_conductance_cm3_s = 0.0;
+    for (const double ambient_Pa : {kAtmosphere_Pa, 1.1 * kAtmosphere_Pa}) {
+        SealedAir air{.surface = surface,
+                      .radius_m = kRadius_m,
+                      .press_N = -40.0,
+                      .pressure_Pa = 0.5 * ambient_Pa,
+                      .ambient_Pa = ambient_Pa};
+        const double P = Pneumatic::next_Pa(parameters, air, 1e-6);
+        const double air_before = 0.5 * ambient_Pa * 30.0;  // half squeezed out
+        EXPECT_NEAR(P * (60.0 + 10.0 - 60.0 * (ambient_Pa - P) / ambient_Pa), air_before,
+                    1e-3 * air_before);
+        parameters.pump_ultimate_Pa = 100.0;
+        air.press_before_N = air.press_N = 20.0;
+        air.pump_running = true;
+        for (int k = 0; k < 5000; ++k) {
+            air.pressure_Pa = Pneumatic::next_Pa(parameters, air, 1e-3);
+            ASSERT_GE(air.pressure_Pa, 100.0);
+        }
+        EXPECT_LT(air.pressure_Pa, 2000.0);
+    }
+}
+
 TEST(Pneumatics, StepHardlyMattersWhateverFlows) {
     PneumaticParameters parameters;
     parameters.partial_seal_area_mm2 = 0.3;

@@ -17,7 +17,7 @@ TEST(Nearness, GroundIsCheesemansAndBennettsFormula) {
     EXPECT_LT(ground_gain(10.0), 1.001);
 }
 
-/// facts.md section 5, two facilities with a 12 in quadrotor: 1.24 to 1.31 at 0.33 R, 1.09 to 1.14
+/// facts.md section 5, four commands of a 12 in quadrotor: 1.24 to 1.31 at 0.33 R, 1.09 to 1.14
 /// at 1, about 1.02 at 1.6, about 1 at 2.3. The formula of one rotor is 0.03 off at most.
 TEST(Nearness, GroundIsNearWhatWasMeasured) {
     EXPECT_GE(ground_gain(0.33), 1.24);
@@ -59,6 +59,28 @@ TEST(Nearness, EachRotorFeelsItsOwnHeight) {
     const Wrench wrench = rotor_wrench_B(lifting_by(airframe, gains), RotorList<double>(4, 560.0),
                                          base, Vector3::Zero());
     EXPECT_LT(wrench.moment_N_m.x(), 0.0);  // rolls back
+}
+
+/// What the images below the ground of the three others add at one radius: two at d, one at
+/// d sqrt 2. One on the same axis adds nothing.
+TEST(Nearness, NeighboursAddTheirImages) {
+    Airframe airframe;
+    NearnessModel model = make_nearness({.ground_effect = true, .ground_neighbours = true}, 1.5);
+    Kinematics base;
+    const double R_m = airframe.rotor.radius_m;
+    base.p_WF_m.z() = 1.5 - R_m + airframe.rotor.height_m;
+    const double d = 0.41 / R_m;
+    const double share = 1.0 / 16.0 + 1.0 / std::pow(d * d + 4.0, 1.5) +
+                         0.5 / std::pow(2.0 * d * d + 4.0, 1.5);
+    for (const double gain : thrust_gains(model, airframe, base)) {
+        EXPECT_NEAR(gain, 1.0 / (1.0 - share), 1e-9);
+    }
+    airframe.rotors.resize(1, Rotor{});
+    airframe.rotors.resize(2, airframe.rotors[0]);
+    airframe.rotors[1].below_m = 0.05;
+    EXPECT_NEAR(thrust_gains(model, airframe, base)[0], 16.0 / 15.0, 1e-9);
+    model.parameters.ground_effect = false;
+    EXPECT_FALSE(model.acts());
 }
 
 TEST(Nearness, ALevelCeilingLiftsAllAlikeAndOnItsSideNone) {
