@@ -71,8 +71,8 @@ struct Measurements {
 };
 
 /// Every file of a folder like data/others, by name; the head of ground.yaml describes the keys.
-/// @throws InputError for what is not so: no file there, an unknown key or law, a number that the law has no use
-/// for or lacks, x that does not rise, lists of different lengths
+/// @throws InputError for what is not so: no file there, an unknown key or law, a number that the
+/// law has no use for or lacks, x that does not rise, lists of different lengths
 [[nodiscard]] Measurements load_measurements(const std::filesystem::path& folder);
 /// Of the data.
 [[nodiscard]] std::filesystem::path others_folder();

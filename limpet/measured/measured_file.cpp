@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/user_text.hpp"
 #include "limpet/measured/measured.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/suggestion.hpp"
@@ -104,8 +103,8 @@ std::vector<Series> series_of(const YamlNode& node, const std::vector<Measuremen
 
 Measurement read_measurement(const YamlNode& map, const std::string& group,
                              const std::vector<Measurement>& above) {
-    check_keys(map, {"what", "source", "x", "unit", "law", "numbers", "scatter", "scatter_of", "note",
-                     "series"});
+    check_keys(map, {"what", "source", "x", "unit", "law", "numbers", "scatter", "scatter_of",
+                     "note", "series"});
     Measurement row{.id = map.key,
                     .group = group,
                     .what = read_text(needed(map, "what")),
@@ -153,7 +152,8 @@ std::filesystem::path others_folder() {
 Measurements load_measurements(const std::filesystem::path& folder) {
     Measurements read;
     if (scenario::names_in(folder).empty()) {
-        throw InputError(shown(folder.string()) + ": holds no measurements, which are *.yaml");
+        throw InputError(scenario::shown(folder.string()) +
+                         ": holds no measurements, which are *.yaml");
     }
     for (const std::string& name : scenario::names_in(folder)) {
         const YamlNode root = scenario::parse_yaml_file(folder / (name + ".yaml"));

@@ -98,16 +98,16 @@ struct Pump {
 
 /// What lets air into one cup and out of it, over one step.
 struct CupAir {
-    double volume_m3 = 0.0;        ///< without a vacuum
-    double gives_way_m3 = 0.0;     ///< c P_atm, of a soft cup
-    Hose hose;                     ///< blocked by default
-    double leak_100_m3_s = 0.0;    ///< C_100
-    double leak_exponent = 0.0;    ///< m
-    double area_m2 = 0.0;          ///< on which the vacuum clamps
-    double press_N = 0.0;          ///< presses the lip beyond the vacuum, < 0: the vehicle pulls
-    double uneven_N = 0.0;         ///< 2 M / R, of a graded seal: e times what clamps
-    double hole_m2 = 0.0;          ///< to the atmosphere: unsealed part of the lip, open valve
-    double off_wall_m3_s = 0.0;    ///< conductance of the open mouth of a cup off the wall
+    double volume_m3 = 0.0;      ///< without a vacuum
+    double gives_way_m3 = 0.0;   ///< c P_atm, of a soft cup
+    Hose hose;                   ///< blocked by default
+    double leak_100_m3_s = 0.0;  ///< C_100
+    double leak_exponent = 0.0;  ///< m
+    double area_m2 = 0.0;        ///< on which the vacuum clamps
+    double press_N = 0.0;        ///< presses the lip beyond the vacuum, < 0: the vehicle pulls
+    double uneven_N = 0.0;       ///< 2 M / R, of a graded seal: e times what clamps
+    double hole_m2 = 0.0;        ///< to the atmosphere: unsealed part of the lip, open valve
+    double off_wall_m3_s = 0.0;  ///< conductance of the open mouth of a cup off the wall
     double ambient_Pa = kAtmosphere_Pa;  ///< of the air around, of all cups on a pump the same
 };
 

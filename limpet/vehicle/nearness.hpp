@@ -7,11 +7,13 @@
 
 /// What ground and ceiling do to a rotor's thrust:
 ///
-///   ground   T / T_free = 1 / (1 - s), s = (R / 4z)^2, z from the ground to the propeller: what the
+///   ground   T / T_free = 1 / (1 - s), s = (R / 4z)^2, z from the ground to the propeller: what
+///   the
 ///            image of its wake's source below the ground blows up at it; with its neighbours each
 ///            other rotor's image adds R^2/4 h / (d^2 + h^2)^(3/2) to s, d beside it and h below
 ///   ceiling  T / T_free over d/R, d from the propeller to the ceiling, as measured at the same
-///            command: rotors turn up to 3 % faster there, which is in the gain and not in the speed
+///            command: rotors turn up to 3 % faster there, which is in the gain and not in the
+///            speed
 ///
 /// Both fade with the cosine between the rotor's axis and the vertical (assumed: the data are of a
 /// level vehicle).
@@ -25,7 +27,7 @@ namespace limpet::vehicle {
 struct NearnessParameters {
     bool ground_effect = false;
     bool ground_neighbours = false;  ///< and of a rotor's neighbours, with ground_effect
-    double ceiling_height_m = 0.0;  ///< above the ground; 0: there is no ceiling
+    double ceiling_height_m = 0.0;   ///< above the ground; 0: there is no ceiling
 };
 [[nodiscard]] const ParameterTable<NearnessParameters>& nearness_table();
 

@@ -70,8 +70,8 @@ TEST(Nearness, NeighboursAddTheirImages) {
     const double R_m = airframe.rotor.radius_m;
     base.p_WF_m.z() = 1.5 - R_m + airframe.rotor.height_m;
     const double d = 0.41 / R_m;
-    const double share = 1.0 / 16.0 + 1.0 / std::pow(d * d + 4.0, 1.5) +
-                         0.5 / std::pow(2.0 * d * d + 4.0, 1.5);
+    const double share =
+        1.0 / 16.0 + 1.0 / std::pow(d * d + 4.0, 1.5) + 0.5 / std::pow(2.0 * d * d + 4.0, 1.5);
     for (const double gain : thrust_gains(model, airframe, base)) {
         EXPECT_NEAR(gain, 1.0 / (1.0 - share), 1e-9);
     }
