@@ -54,7 +54,7 @@ const ParameterTable<NearnessParameters>& nearness_table() {
          "with ground_effect: and more for the rotors beside them",
          "images: Sanchez-Cuevas, Heredia, Ollero 2017, without its body; a pair of rotors lifts "
          "so, "
-         "a quadrotor less (limpet validate)"},
+         "of rotors lifts so, a quadrotor less (limpet validate)"},
         {"ceiling_height_m", "m", 0.0, 1000.0, &N::ceiling_height_m,
          "> 0: a ceiling so far above the ground; rotors below it lift more, one that meets it "
          "ends "
