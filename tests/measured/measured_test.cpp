@@ -183,7 +183,7 @@ TEST(MeasuredFile, ReadsRowsAndThoseThatShareASeries) {
     const Folder folder(kGood +
                         "b:\n  what: tilted\n  source: the same\n  x: z/R [-]\n"
                         "  unit: \"-\"\n  law: ground\n  numbers: {tilt_deg: 30}\n"
-                        "  scatter: 0.1\n  scatter_of: so\n  series: a\n"
+                        "  scatter_of: so\n  series: a\n"
                         "looked_at:\n  - {what: w, where: h, why: y}\n");
     const Measurements read = load_measurements(folder.path());
     ASSERT_EQ(read.rows.size(), 2U);
