@@ -148,6 +148,30 @@ private:
         }
     }
 
+    /// By how much what is left pulls at the fitted numbers from block to block of the flight more
+    /// than white noise would: a model that lacks something leaves errors that hang together, and
+    /// then the slopes alone promise too much. Source: the sandwich of Huber and White, clustered.
+    /// @return of each number, the factor on its deviation, >= 1
+    VectorXd apart(const MatrixXd& slopes, const VectorXd& left, const MatrixXd& covariance) const {
+        constexpr std::size_t kBlocks = 32;
+        const auto n = static_cast<Eigen::Index>(data_.imu_s.size());
+        const std::size_t count = samples_of(free_);
+        MatrixXd pulls = MatrixXd::Zero(kBlocks, slopes.cols());
+        std::size_t sample = 0;
+        for (const Stretch& stretch : free_) {
+            for (std::size_t k = stretch.first; k < stretch.last; ++k, ++sample) {
+                const auto block = static_cast<Eigen::Index>(sample * kBlocks / count);
+                for (Eigen::Index row = static_cast<Eigen::Index>(k); row < 3 * n; row += n) {
+                    pulls.row(block) += left[row] * slopes.row(row);
+                }
+            }
+        }
+        const MatrixXd moved = pulls * covariance;
+        return (moved.colwise().squaredNorm().transpose().array() / covariance.diagonal().array())
+            .max(1.0)
+            .sqrt();
+    }
+
     /// Covariance of all that was fitted, from the slopes of what is left by each.
     TurningFit conclude() {
         constexpr double kSmall = 1e-3;
@@ -176,9 +200,11 @@ private:
                     inverse[a] * (spins_aside[at] - spins[at]) / kSmall / axes_[at].deviation;
             }
         }
-        (void)left_by(logs_);  // the inertias are those of the lags again
-        const MatrixXd covariance =
+        const VectorXd left = left_by(logs_);  // the inertias are those of the lags again
+        MatrixXd covariance =
             (slopes.transpose() * slopes).ldlt().solve(MatrixXd::Identity(kAll, kAll));
+        const VectorXd factors = apart(slopes, left, covariance);
+        covariance = factors.asDiagonal() * covariance * factors.asDiagonal();
         TurningFit fit;
         fit.per_inertia = inverse;
         fit.lag_up_s = std::exp(logs_[0]);

@@ -185,21 +185,16 @@ double half_error(const std::vector<Trials>& trials, const SuccessCurve& scaled,
 }  // namespace
 
 double chi_squared_beyond(double chi2, int degrees) {
+    // Each term by its logarithm: exp(-half) alone is 0 where many degrees make the sum 1.
     const double half = 0.5 * chi2;
-    if (degrees % 2 == 0) {
-        double term = std::exp(-half), sum = term;
-        for (int k = 1; k < degrees / 2; ++k) {
-            term *= half / k;
-            sum += term;
-        }
-        return sum;
+    const bool odd = degrees % 2 != 0;
+    double log_term = (odd ? 0.5 * std::log(2.0 * chi2 / kPi) : 0.0) - half;
+    double sum = odd ? std::erfc(std::sqrt(half)) : 0.0;
+    for (double k = odd ? 0.5 : 0.0; k < 0.5 * degrees; k += 1.0) {
+        sum += std::exp(log_term);
+        log_term += std::log(half / (k + 1.0));
     }
-    double term = std::sqrt(2.0 * chi2 / kPi) * std::exp(-half), sum = 0.0;
-    for (int k = 1; k < degrees; k += 2) {
-        sum += term;
-        term *= chi2 / (k + 2);
-    }
-    return std::erfc(std::sqrt(half)) + sum;
+    return sum;
 }
 
 std::optional<Goodness> goodness_of(const std::vector<Trials>& trials,
