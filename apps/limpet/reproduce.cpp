@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/reproduce.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <string>
@@ -64,6 +65,13 @@ void fly_parts(const ReproduceOptions& options) {
                                       report::to_text(claim.simulated), claim.unit));
         }
     }
+    for (const report::Claim& claim : result.page.claims) {
+        if (claim.verdict == report::Verdict::hangs_on_assumptions) {
+            terminal.line(fmt::format("hangs on   {} ({}): {} {}; {}", claim.statement,
+                                      claim.section, report::to_text(claim.simulated), claim.unit,
+                                      fmt::join(claim.hangs_on, "; ")));
+        }
+    }
     for (const std::string& note : result.notes) {
         terminal.line("note", note);
     }
@@ -72,6 +80,8 @@ void fly_parts(const ReproduceOptions& options) {
     };
     terminal.line("measured", fmt::format("{} claims reproduced, {} differ", count("measured"),
                                           count("measured_differs")));
+    terminal.line("hang on", fmt::format("assumptions: {} claims, whatever their basis",
+                                         count("hang_on_assumptions")));
     terminal.line("else", fmt::format("as set {}, recovered {}, fitted {}, by construction {}; {} "
                                       "of those differ; {} not modelled",
                                       count("as_set"), count("recovered"), count("fitted"),

@@ -6,6 +6,8 @@
 namespace limpet::assumptions {
 namespace {
 
+constexpr std::string_view kChoice = "nothing: a choice, known for a vehicle of your own";
+
 /// Beginnings of keys, the longer ones first.
 constexpr std::array kMeasurements = {
     Measurement{"vehicle.inertia_kg_m2.", "a bifilar pendulum"},
@@ -24,13 +26,17 @@ constexpr std::array kMeasurements = {
     Measurement{"suction.t", "a spring balance on the cup, tilted and turned; its swing filmed"},
     Measurement{"sensors.", "a log of the sensor at rest, beside a second one"},
     Measurement{"environment.", "an anemometer, and a log of a hover near the wall"},
-    Measurement{"guidance.", "nothing: a choice, known for a vehicle of your own"},
+    Measurement{"guidance.", kChoice},
 };
 
 }  // namespace
 
 std::span<const Measurement> measurements() {
     return kMeasurements;
+}
+
+bool is_measured(std::string_view by) {
+    return !by.empty() && by != kChoice;
 }
 
 std::string_view measurement_of(std::string_view key) {

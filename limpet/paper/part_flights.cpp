@@ -3,17 +3,22 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parallel.hpp"
+#include "limpet/draw/gnuplot.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/rigs.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/paper/turned.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
 #include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -71,7 +76,7 @@ const PaperFlight& flight_of(const std::vector<PaperFlight>& flights, const std:
 }
 
 /// Values of one flight that need another.
-void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidence) {
+void measure_together(const record::Recording& concrete, Evidence& evidence) {
     evidence.set("perch_concrete.pitch_off_legs_deg",
                  std::abs(evidence.get("perch_concrete.perched_pitch_deg") -
                           evidence.get("vehicle.pitch_on_legs_deg")));
@@ -83,11 +88,64 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
                                                       evidence.get("perch_low_wall.rested") < 0.5
                                                   ? 1.0
                                                   : 0.0);
-    const record::Recording& concrete = flight_of(flights, "perch_concrete").recording;
     const record::RecordedEvent* approach = first_event(concrete, EventName::approach_started);
     const auto chapter = perching(concrete);
     evidence.set("fig11.approach_at_s",
                  approach != nullptr && chapter ? approach->time_s - chapter->window.from_s : kNaN);
+}
+
+double pitch_on_legs_deg(const FlightOrder& order) {
+    return degrees(vehicle::pitch_on_legs_rad(
+        scenario::load_scenario(order.scenario, {.overrides = order.overrides}).airframe));
+}
+
+/// Of all evidence of the flights.
+std::vector<std::string> names_of_flights() {
+    Evidence named;  // of flights that never were: every name, no value
+    for (const FlightOrder& order : orders()) {
+        measure(PaperFlight{.name = order.name, .result = {}, .recording = {}}, named);
+    }
+    measure_together({}, named);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : named.all()) {
+        names.push_back(name);
+    }
+    return names;
+}
+
+/// The flights again, those in which the value is assumed; the others are as they were.
+void turn_flights(Study& study, const record::Recording& concrete) {
+    std::vector<scenario::Scenario> scenarios;
+    for (const FlightOrder& order : orders()) {
+        scenarios.push_back(
+            scenario::load_scenario(order.scenario, {.overrides = order.overrides}));
+    }
+    const Evidence as_it_is = study.evidence;
+    do_again(study, {.name = "flights",
+                     .evidence = names_of_flights(),
+                     .turns = turns_of(scenarios),
+                     .measure = [&](const Turn& turn) {
+                         const draw::gnuplot::TemporaryFolder scratch;
+                         Evidence evidence = as_it_is;
+                         std::optional<record::Recording> turned;
+                         for (std::size_t i = 0; i < orders().size(); ++i) {
+                             const auto set = override_of(turn, scenarios[i]);
+                             if (!set) {
+                                 continue;
+                             }
+                             FlightOrder order = orders()[i];
+                             order.overrides.push_back(*set);
+                             PaperFlight flight = fly_recorded(order, scratch.path());
+                             measure(flight, evidence);
+                             if (flight.name == "perch_concrete") {
+                                 evidence.set("vehicle.pitch_on_legs_deg",
+                                              pitch_on_legs_deg(order));
+                                 turned = std::move(flight.recording);
+                             }
+                         }
+                         measure_together(turned ? *turned : concrete, evidence);
+                         return evidence;
+                     }});
 }
 
 TableRows flight_rows(const std::vector<PaperFlight>& flights) {
@@ -113,7 +171,8 @@ void study_flights(Study& study) {
     for (const PaperFlight& flight : flights) {
         measure(flight, study.evidence);
     }
-    measure_together(flights, study.evidence);
+    measure_together(flight_of(flights, "perch_concrete").recording, study.evidence);
+    turn_flights(study, flight_of(flights, "perch_concrete").recording);
 
     study.say("figures of the flights");
     const std::vector<std::string> drawn = {"perch_concrete", "perch_metal", "failed_perch"};
@@ -146,14 +205,7 @@ StudyPart flights_part() {
     for (const PaperFigure& figure : kFigures) {
         part.shows.emplace_back(figure.id);
     }
-    Evidence named;  // of flights that never were: every name, no value
-    std::vector<PaperFlight> flights(orders().size());
-    for (std::size_t i = 0; i < flights.size(); ++i) {
-        flights[i].name = orders()[i].name;
-        measure(flights[i], named);
-    }
-    measure_together(flights, named);
-    for (const auto& [name, value] : named.all()) {
+    for (const std::string& name : names_of_flights()) {
         part.measures.push_back(name);
     }
     return part;

@@ -47,7 +47,8 @@ std::vector<report::Claim> judged(const Study& study, const std::vector<StudyPar
         if (!all && !study.evidence.has(statement.evidence)) {
             continue;
         }
-        report::Claim& claim = claims.emplace_back(judge(statement, study.evidence));
+        report::Claim& claim = claims.emplace_back(
+            judge(statement, study.evidence, study.turned_of(statement.evidence)));
         if (shown.count(claim.figure) == 0) {
             require(!all || claim.figure.empty(), "the figure of a statement is on the page");
             claim.figure.clear();
@@ -72,6 +73,8 @@ Evidence counted(const std::vector<report::Claim>& claims) {
             name = "not_modelled";
         } else if (!claim.same_as.empty()) {
             name = "said_twice";
+        } else if (claim.verdict == report::Verdict::hangs_on_assumptions) {
+            name = "hang_on_assumptions";
         } else if (!reproduced) {
             name = claim.basis == "measured" ? "measured_differs" : "others_differ";
         }

@@ -81,8 +81,11 @@ TEST(Weigh, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Weigh, AnOutcomeThatHangsOnAValueIsNamed) {
     Register all;
-    all.values.push_back(
-        {.assumption = {.key = "suction.radius_m", .unit = "m", .value = 0.04}, .flights = 2});
+    all.values.push_back({.assumption = {.key = "suction.radius_m",
+                                         .unit = "m",
+                                         .value = 0.04,
+                                         .neighbours = {0.036, 0.044}},
+                          .flights = 2});
     EXPECT_THAT(hangs_on_text(all), HasSubstr("hangs on none of 1 assumed values"));
     all.values.front().flips = {{1, 0.036, "crashed (fallen)"}};
     EXPECT_EQ(hangs_on_text(all),
