@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 
 #include "limpet/assumptions/assumptions.hpp"
@@ -29,6 +30,14 @@ constexpr std::array kMeasurements = {
     Measurement{"guidance.", kChoice},
 };
 
+/// In metres, not in newtons or kilograms by, or times, metres.
+bool is_length(std::string_view key) {
+    constexpr std::array<std::string_view, 4> kOthers = {"_N_m", "_s_m", "_kg_m", "_V_m"};
+    return key.ends_with("_m") &&
+           std::none_of(kOthers.begin(), kOthers.end(),
+                        [key](std::string_view other) { return key.ends_with(other); });
+}
+
 }  // namespace
 
 std::span<const Measurement> measurements() {
@@ -44,7 +53,7 @@ std::string_view measurement_of(std::string_view key) {
         return "scales";
     }
     const bool of_a_part = key.starts_with("vehicle.") || key.starts_with("wall.");
-    if (of_a_part && key.ends_with("_m") && !key.ends_with("N_m")) {
+    if (of_a_part && is_length(key)) {
         return "a ruler";
     }
     if (key.starts_with("sensors.") && key.ends_with("_Hz")) {

@@ -69,6 +69,31 @@ void measure_missions(const std::vector<MissionCase>& cases, Evidence& evidence)
                  of(cases, "metal").quantile(0.5) / of(cases, "concrete").quantile(0.5));
 }
 
+/// The missions in which a value is turned, the others as they were flown.
+/// @return nothing where it is in none
+Evidence measure_again(const Turn& turn, const Study& study,
+                       const std::vector<MissionCase>& flown) {
+    std::vector<MissionCase> turned = mission_cases();
+    bool any = false;
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+        MissionCase& one = turned[i];
+        const auto set =
+            override_of(turn, scenario::load_scenario(one.scenario, {.overrides = one.overrides}));
+        if (set) {
+            one.overrides.push_back(*set);
+            fly_case(one, study, 1);
+            any = true;
+        } else {
+            one.missions = flown[i].missions;
+        }
+    }
+    Evidence evidence;
+    if (any) {
+        measure_missions(turned, evidence);
+    }
+    return evidence;
+}
+
 /// The missions again: many flights each, so with the values alone that the statements name.
 void turn_missions(Study& study, const std::vector<MissionCase>& flown) {
     const std::vector<std::string> measured = {
@@ -78,22 +103,7 @@ void turn_missions(Study& study, const std::vector<MissionCase>& flown) {
                      .evidence = measured,
                      .turns = turns_named(study, measured),
                      .measure = [&study, &flown](const Turn& turn) {
-                         std::vector<MissionCase> turned = mission_cases();
-                         for (std::size_t i = 0; i < turned.size(); ++i) {
-                             MissionCase& one = turned[i];
-                             const auto set =
-                                 override_of(turn, scenario::load_scenario(
-                                                       one.scenario, {.overrides = one.overrides}));
-                             if (!set) {
-                                 one.missions = flown[i].missions;
-                                 continue;
-                             }
-                             one.overrides.push_back(*set);
-                             fly_case(one, study, 1);
-                         }
-                         Evidence evidence;
-                         measure_missions(turned, evidence);
-                         return evidence;
+                         return measure_again(turn, study, flown);
                      }});
 }
 

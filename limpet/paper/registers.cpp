@@ -29,13 +29,15 @@ bool is_weighed(const std::string& figure) {
 
 std::string flips_text(const assumptions::Register& all) {
     std::string text;
+    std::size_t flights = 0;
     for (const assumptions::Weighed& weighed : all.values) {
+        flights += weighed.flights;
         if (!weighed.flips.empty()) {
             text += fmt::format("{}{} = {:g}: {}", text.empty() ? "" : "; ", weighed.assumption.key,
                                 weighed.assumption.value, flip_text(weighed));
         }
     }
-    return text.empty() ? fmt::format("none of {}", all.flights) : text;
+    return text.empty() ? fmt::format("none of {}", flights) : text;
 }
 
 }  // namespace
