@@ -55,11 +55,11 @@ struct Measured {
 /// The file of an experiment.
 class Kept {
 public:
-    Kept(fs::path file, Json as_it_is) : file_(std::move(file)), as_it_is_(std::move(as_it_is)) {
+    /// @param of  the experiment: what a file of another differs by
+    Kept(fs::path file, Json of) : file_(std::move(file)), of_(std::move(of)) {
         std::ifstream from(file_);
         const Json json = Json::parse(from, nullptr, false);
-        if (!json.is_object() || json.value("as_it_is", Json()) != as_it_is_ ||
-            json.value("turned_by", Json()) != Json(kTurnedBy)) {
+        if (!json.is_object() || json.value("of", Json()) != of_) {
             return;  // of another experiment, or none
         }
         for (const Json& one : json.value("turned", Json::array())) {
@@ -80,8 +80,7 @@ public:
             turned.push_back(
                 {{"key", one.turn.key}, {"more", one.turn.more}, {"evidence", one.values}});
         }
-        const Json json = {
-            {"turned_by", kTurnedBy}, {"as_it_is", as_it_is_}, {"turned", std::move(turned)}};
+        const Json json = {{"of", of_}, {"turned", std::move(turned)}};
         fs::create_directories(file_.parent_path());
         if (!write_file(file_, json.dump(1) + "\n")) {
             throw InputError(fmt::format("cannot write {}: is the disk full?", file_.string()));
@@ -90,7 +89,7 @@ public:
 
 private:
     fs::path file_;
-    Json as_it_is_;
+    Json of_;
     std::vector<Measured> all_;
 };
 
@@ -155,7 +154,9 @@ void do_again(Study& study, const TurnedExperiment& experiment) {
                      });
     }
     Kept kept(study.folder / "assumptions" / (experiment.name + "_turned.json"),
-              values_of(study.evidence, names));
+              {{"turned_by", kTurnedBy},
+               {"quick", study.quick},
+               {"as_it_is", values_of(study.evidence, names)}});
     std::vector<Turn> missing;
     std::copy_if(turns.begin(), turns.end(), std::back_inserter(missing),
                  [&kept](const Turn& turn) { return kept.find(turn) == nullptr; });
