@@ -50,8 +50,8 @@ struct TurnedExperiment {
 
 /// Does it again with each value turned, after it has been done as it is, and keeps in study.turned
 /// what the statements ask for. FOLDER/assumptions/NAME_turned.json holds what was measured; a
-/// later run into the same folder takes from there what was measured of the same experiment, which
-/// is one whose evidence as it is equals the file's bit for bit.
+/// later run into the same folder takes from there what was measured of the same experiment: as
+/// quick or not, and with an evidence as it is that equals the file's bit for bit.
 /// @throws Interrupted; what was measured until then is in the file
 void do_again(Study& study, const TurnedExperiment& experiment);
 

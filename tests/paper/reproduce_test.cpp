@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../apps/program.hpp"
+#include "limpet/paper/flights.hpp"
+#include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -124,6 +126,48 @@ TEST(ReproduceOnly, TheTrialsSayWhatSamplingAndAssumptionsLeaveOpen) {
     // The moved trials can be flown by themselves.
     const Finished again = bench.run({"check", "page/campaigns/fig3_damping_low/campaign.yaml"});
     EXPECT_EQ(again.exit_code, 0) << again.err;
+}
+
+/// Held against a flight that is set up by hand; and a second run takes all of it from the folder.
+TEST(ReproduceOnly, AVerdictHangsOnFlightsWithTheValueTurned) {
+    const Bench bench;
+    const std::vector<std::string> run = {"reproduce", "--quick", "--only",
+                                          "flights",   "--out",   "page"};
+    const Finished done = bench.run(run);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_NE(done.out.find("flights, assumed values turned: 0 of "), std::string::npos);
+    const fs::path page = bench.folder() / "page";
+    const Json turned = Json::parse(text_of(page / "assumptions" / "flights_turned.json"));
+    const std::string key = "vehicle.slider.damping_N_s_m";
+    const double as_it_is = scenario::load_scenario("perch_concrete").airframe.slider.damping_N_s_m;
+    int compared = 0;
+    for (const Json& one : turned["turned"]) {
+        if (one["key"] != key) {
+            continue;
+        }
+        const double to = as_it_is * (one["more"].get<bool>() ? 1.2 : 0.8);
+        const PaperFlight flight = fly_recorded({.name = "perch_concrete",
+                                                 .scenario = "perch_concrete",
+                                                 .overrides = {key + "=" + std::to_string(to)}},
+                                                bench.folder());
+        Evidence evidence;
+        measure(flight, evidence);
+        for (const char* name : {"perch_concrete.spike_N", "perch_concrete.is_released"}) {
+            EXPECT_EQ(one["evidence"][name].get<double>(), evidence.get(name)) << name << to;
+            ++compared;
+        }
+    }
+    EXPECT_EQ(compared, 4);
+    const Json claims = Json::parse(text_of(page / "results.json"))["claims"];
+    for (const Json& claim : claims) {
+        EXPECT_EQ(claim["verdict"] == "hangs on assumptions", !claim["hangs_on"].empty()) << claim;
+        EXPECT_TRUE(claim["basis"] != "measured" || claim["assumes"].empty() ||
+                    claim["turned"].get<int>() > 0)
+            << claim;
+    }
+    const Finished again = bench.run(run);
+    EXPECT_EQ(again.out.find("assumed values turned"), std::string::npos) << again.out;
+    EXPECT_EQ(Json::parse(text_of(page / "results.json"))["claims"], claims);
 }
 
 TEST(ReproduceOnly, FlightsThatWereRecordedElsewhere) {

@@ -91,6 +91,10 @@ TEST(DoAgain, TakesFromTheFolderWhatIsOfTheSameExperiment) {
     toy.fly({{"a.b", true}});
     EXPECT_EQ(toy.done, 7 + 3) << "a file that is none";
     EXPECT_EQ(toy.turned(), first);
+    toy.begin(1.0);
+    toy.study.quick = true;
+    toy.fly({});
+    EXPECT_EQ(toy.done, 10 + 2) << "--quick may measure less of each";
 }
 
 TEST(DoAgain, StopsAndGoesOnFromThere) {
