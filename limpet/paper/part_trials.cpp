@@ -182,7 +182,8 @@ void study_assumptions(Study& study) {
     }
     study.table("fig3-assumptions", rows);
     for (std::size_t k = 1; k < all.size(); ++k) {
-        for (const auto& [name, value] : measure_moved(all[k]).all()) {
+        const Evidence moved = measure_moved(all[k]);
+        for (const auto& [name, value] : moved.all()) {
             study.turned[name].push_back({all[k].assumption, value});
         }
     }
