@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/reproduce.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <chrono>
 #include <string>
@@ -65,12 +64,8 @@ void fly_parts(const ReproduceOptions& options) {
                                       report::to_text(claim.simulated), claim.unit));
         }
     }
-    for (const report::Claim& claim : result.page.claims) {
-        if (claim.verdict == report::Verdict::hangs_on_assumptions) {
-            terminal.line(fmt::format("hangs on   {} ({}): {} {}; {}", claim.statement,
-                                      claim.section, report::to_text(claim.simulated), claim.unit,
-                                      fmt::join(claim.hangs_on, "; ")));
-        }
+    for (const std::string& one : result.hanging) {
+        terminal.line("hangs on", one);
     }
     for (const std::string& note : result.notes) {
         terminal.line("note", note);

@@ -2,6 +2,7 @@
 #include "limpet/paper/reproduce.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -87,6 +88,26 @@ Evidence counted(const std::vector<report::Claim>& claims) {
     return all;
 }
 
+std::vector<std::pair<std::string, std::vector<std::string>>> hanging(
+    const std::vector<report::Claim>& claims) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> all;
+    for (const report::Claim& claim : claims) {
+        for (const std::string& one : claim.hangs_on) {
+            const std::string turn = one.substr(0, one.find(": "));
+            auto found = std::find_if(all.begin(), all.end(),
+                                      [&turn](const auto& each) { return each.first == turn; });
+            if (found == all.end()) {
+                found = all.insert(all.end(), {turn, {}});
+            }
+            found->second.push_back(claim.id);
+        }
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.second.size() > b.second.size();
+    });
+    return all;
+}
+
 std::vector<std::pair<std::string, std::string>> part_titles() {
     std::vector<std::pair<std::string, std::string>> titles;
     for (const StudyPart& part : parts()) {
@@ -143,6 +164,17 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
                              .title = "What the paper says, line by line",
                              .blocks = {report::ClaimTable{}}});
     page.claims = judged(study, chosen, options.only.empty());
+    report::PageTable hangs{.id = "hang-on",
+                            .title = "What verdicts hang on",
+                            .columns = {"value turned", "statements", "which"}};
+    for (const auto& [turn, ids] : hanging(page.claims)) {
+        hangs.rows.push_back(
+            {turn, static_cast<double>(ids.size()), fmt::format("{}", fmt::join(ids, ", "))});
+        result.hanging.push_back(fmt::format("{}: {} statements", turn, ids.size()));
+    }
+    if (!hangs.rows.empty()) {
+        page.sections.back().blocks.emplace_back(std::move(hangs));
+    }
     result.counts = counted(page.claims);
     for (const std::string& paragraph : text.summary) {
         page.summary.push_back(

@@ -106,6 +106,10 @@ inline const std::vector<std::string> kSummaryCounts = {
     "statements.others_differ", "statements.hang_on_assumptions",
     "statements.said_twice",    "statements.not_modelled"};
 
+/// The statements whose verdicts hang on each turned value, by their ids; most first.
+[[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> hanging(
+    const std::vector<report::Claim>& claims);
+
 /// @return all of kSummaryCounts
 [[nodiscard]] Evidence counted(const std::vector<report::Claim>& claims);
 

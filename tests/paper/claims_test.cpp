@@ -281,6 +281,19 @@ TEST(Counts, HeadlinesAreOfWhatWasMeasuredAlone) {
     EXPECT_EQ(counts.get("statements.not_modelled"), 1.0);
 }
 
+TEST(Hanging, NamesTheStatementsOfEachTurn) {
+    const auto claim = [](const char* id, std::vector<std::string> hangs_on) {
+        return report::Claim{.id = id, .hangs_on = std::move(hangs_on)};
+    };
+    const auto all =
+        hanging({claim("a", {"`x` 20 % less: 1"}),
+                 claim("b", {"`y` 20 % more: no", "`x` 20 % less: 2"}), claim("c", {})});
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].first, "`x` 20 % less");
+    EXPECT_EQ(all[0].second, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(all[1].second, std::vector<std::string>{"b"});
+}
+
 TEST(PageText, IsThatOfTheParts) {
     const PageText text = load_page_text(page_text_file(), parts());
     EXPECT_EQ(text.blocks.size(), parts().size());
