@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/paper/trials.hpp"
 #include "limpet/scenario/loader.hpp"
 
@@ -184,7 +185,12 @@ void study_assumptions(Study& study) {
     for (std::size_t k = 1; k < all.size(); ++k) {
         const Evidence moved = measure_moved(all[k]);
         for (const auto& [name, value] : moved.all()) {
-            study.turned[name].push_back({all[k].assumption, value});
+            const PaperStatement* of = find_by(study.statements, &PaperStatement::evidence, name);
+            // So few trials may not tell even as assumed what the statement's own campaign tells.
+            if (of != nullptr && judge(*of, measure_moved(all.front())).verdict ==
+                                     judge(*of, study.evidence).verdict) {
+                study.turned[name].push_back({all[k].assumption, value});
+            }
         }
     }
     const Evidence& own = study.evidence;
