@@ -101,7 +101,7 @@ OptionList options_of(ReproduceOptions& options) {
     }
     return {{"--out DIR", &options.out, "folder (default: out/reproduce)"},
             {"--only NAME", &options.only, "one part, named below", one_of(names)},
-            {"--quick", &options.quick, "fewer missions, coarser maps; under two minutes"},
+            {"--quick", &options.quick, "fewer missions, coarser maps; two or three minutes"},
             jobs_option(options.jobs)};
 }
 

