@@ -73,7 +73,7 @@ TEST(Reproduce, QuickWritesAWholePage) {
     // What is known to differ; one more is news, one less too.
     EXPECT_EQ(with_verdict(json["claims"], "differs"),
               (std::vector<std::string>{"spike-later", "metal-ripple", "aerodynamic"}));
-    // With a shorter arm the cup does not reach the wall, a smaller one does not carry the vehicle;
+    // With a shorter arm a propeller meets the wall, a smaller cup peels off under the vehicle;
     // how far it swings hangs on arm and motors, on concrete on the wall's air as well: 0.46 deg
     // more in the median of 200 missions, 0.5 is accepted.
     EXPECT_THAT(with_verdict(json["claims"], "hangs on assumptions"),
