@@ -64,6 +64,9 @@ void fly_parts(const ReproduceOptions& options) {
                                       report::to_text(claim.simulated), claim.unit));
         }
     }
+    for (const std::string& one : result.hanging) {
+        terminal.line("hangs on", one);
+    }
     for (const std::string& note : result.notes) {
         terminal.line("note", note);
     }
@@ -72,6 +75,8 @@ void fly_parts(const ReproduceOptions& options) {
     };
     terminal.line("measured", fmt::format("{} claims reproduced, {} differ", count("measured"),
                                           count("measured_differs")));
+    terminal.line("hang on", fmt::format("assumptions: {} claims, whatever their basis",
+                                         count("hang_on_assumptions")));
     terminal.line("else", fmt::format("as set {}, recovered {}, fitted {}, by construction {}; {} "
                                       "of those differ; {} not modelled",
                                       count("as_set"), count("recovered"), count("fitted"),
@@ -96,7 +101,7 @@ OptionList options_of(ReproduceOptions& options) {
     }
     return {{"--out DIR", &options.out, "folder (default: out/reproduce)"},
             {"--only NAME", &options.only, "one part, named below", one_of(names)},
-            {"--quick", &options.quick, "fewer missions, coarser maps; under two minutes"},
+            {"--quick", &options.quick, "fewer missions, coarser maps; two or three minutes"},
             jobs_option(options.jobs)};
 }
 

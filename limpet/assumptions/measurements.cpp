@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 
 #include "limpet/assumptions/assumptions.hpp"
 
 namespace limpet::assumptions {
 namespace {
+
+constexpr std::string_view kChoice = "nothing: a choice, known for a vehicle of your own";
 
 /// Beginnings of keys, the longer ones first.
 constexpr std::array kMeasurements = {
@@ -24,8 +27,16 @@ constexpr std::array kMeasurements = {
     Measurement{"suction.t", "a spring balance on the cup, tilted and turned; its swing filmed"},
     Measurement{"sensors.", "a log of the sensor at rest, beside a second one"},
     Measurement{"environment.", "an anemometer, and a log of a hover near the wall"},
-    Measurement{"guidance.", "nothing: a choice, known for a vehicle of your own"},
+    Measurement{"guidance.", kChoice},
 };
+
+/// In metres, not in newtons or kilograms by, or times, metres.
+bool is_length(std::string_view key) {
+    constexpr std::array<std::string_view, 4> kOthers = {"_N_m", "_s_m", "_kg_m", "_V_m"};
+    return key.ends_with("_m") &&
+           std::none_of(kOthers.begin(), kOthers.end(),
+                        [key](std::string_view other) { return key.ends_with(other); });
+}
 
 }  // namespace
 
@@ -33,12 +44,16 @@ std::span<const Measurement> measurements() {
     return kMeasurements;
 }
 
+bool is_measured(std::string_view by) {
+    return !by.empty() && by != kChoice;
+}
+
 std::string_view measurement_of(std::string_view key) {
     if (key.ends_with("mass_kg")) {
         return "scales";
     }
     const bool of_a_part = key.starts_with("vehicle.") || key.starts_with("wall.");
-    if (of_a_part && key.ends_with("_m") && !key.ends_with("N_m")) {
+    if (of_a_part && is_length(key)) {
         return "a ruler";
     }
     if (key.starts_with("sensors.") && key.ends_with("_Hz")) {

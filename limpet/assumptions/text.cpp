@@ -16,27 +16,14 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostShown = 5;
 /// Figures that pages and README speak of.
-constexpr std::array<std::string_view, 7> kFigures = {
-    "impact_speed_m_s", "cup_press_max_N", "time_to_land_pressure_s", "perched_pitch_deg",
-    "cup_margin_min_N", "release_s",       "pitch_swing_deg"};
-
-const Effect& effect_of(const Weighed& weighed, std::string_view metric) {
-    return *std::find_if(weighed.effects.begin(), weighed.effects.end(),
-                         [metric](const Effect& each) { return each.metric == metric; });
-}
-
-std::string flip_text(const Weighed& weighed) {
-    std::map<std::string, std::size_t> ends;
-    for (const Flip& flip : weighed.flips) {
-        ++ends[fmt::format("{:g}: {}", flip.to, flip.outcome)];
-    }
-    std::string text;
-    for (const auto& [end, count] : ends) {
-        text += fmt::format("{}{} in {} of {}", text.empty() ? "" : "; ", end, count,
-                            weighed.flights / 2);
-    }
-    return text;
-}
+constexpr std::array<std::string_view, 8> kFigures = {kSuccess,
+                                                      "impact_speed_m_s",
+                                                      "cup_press_max_N",
+                                                      "time_to_land_pressure_s",
+                                                      "perched_pitch_deg",
+                                                      "cup_margin_min_N",
+                                                      "release_s",
+                                                      "pitch_swing_deg"};
 
 std::string measured_by(const Assumption& assumption) {
     return assumption.measurement.empty() ? "" : "  measure: " + assumption.measurement;
@@ -66,7 +53,34 @@ std::string flips_text(const Register& all) {
     return text;
 }
 
+/// "best settled by a ruler (0.93 of it), scales (0.04)"
+std::string settled_text(const Register& all, std::string_view figure) {
+    constexpr std::size_t kMost = 3;
+    constexpr double kLeast = 0.01;
+    std::string text;
+    std::size_t count = 0;
+    for (const Settled& each : settled_by(all, figure)) {
+        if (count++ < kMost && each.share >= kLeast) {
+            text += fmt::format("{}{} ({:.2f})", text.empty() ? "" : "; ", each.by, each.share);
+        }
+    }
+    return text.empty() ? "" : "  best settled by " + text + "\n";
+}
+
 }  // namespace
+
+std::string flip_text(const Weighed& weighed) {
+    std::map<std::string, std::size_t> ends;
+    for (const Flip& flip : weighed.flips) {
+        ++ends[fmt::format("{:g}: {}", flip.to, flip.outcome)];
+    }
+    std::string text;
+    for (const auto& [end, count] : ends) {
+        text += fmt::format("{}{} in {} of {}", text.empty() ? "" : "; ", end, count,
+                            weighed.flights / weighed.assumption.neighbours.size());
+    }
+    return text;
+}
 
 std::string register_text(const Register& all) {
     std::string text =
@@ -88,6 +102,7 @@ std::string register_text(const Register& all) {
             text += fmt::format("  {:<40} {:>+10.3g} +- {:<8.2g}{}\n", weighed->assumption.key,
                                 effect.change, effect.error, measured_by(weighed->assumption));
         }
+        text += settled_text(all, figure);
     }
     return text + fmt::format("\nflights    {} flown in {:.1f} s\n", all.flights, all.wall_s);
 }
@@ -126,8 +141,17 @@ std::string register_json(const Register& all) {
                           {"flips", flips},
                           {"effects", effects}});
     }
-    const Json json = {{"scenario", all.scenario}, {"share", all.share},     {"seeds", all.seeds},
-                       {"as_it_is", all.outcomes}, {"flights", all.flights}, {"values", values}};
+    Json settled = Json::object();
+    for (const Effect& effect :
+         all.values.empty() ? std::vector<Effect>{} : all.values[0].effects) {
+        for (const Settled& each : settled_by(all, effect.metric)) {
+            settled[std::string(effect.metric)][std::string(each.by)] = each.share;
+        }
+    }
+    const Json json = {{"scenario", all.scenario}, {"share", all.share},
+                       {"seeds", all.seeds},       {"as_it_is", all.outcomes},
+                       {"flights", all.flights},   {"settled_by", settled},
+                       {"values", values}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

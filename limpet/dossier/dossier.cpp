@@ -10,6 +10,7 @@
 
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/write_file.hpp"
 #include "limpet/dossier/dossier_runs.hpp"
 #include "limpet/paper/claims.hpp"
 #include "limpet/paper/reproduce.hpp"
@@ -113,6 +114,7 @@ private:
         say(scenario + "_inputs: what the inputs do");
         (void)study::fly_study(study, options_.jobs, {.on_progress = {}, .stop = watch_.stop});
         say("");
+        const auto assumed = weigh_assumptions(scenario, nominal);
         for (const Quantity& quantity : file_.quantities) {
             if (quantity.scenario != scenario) {
                 continue;
@@ -127,8 +129,35 @@ private:
             }
             found.inputs = study::find_study(study, quantity.figure);
             found.inputs_from = from(scenario + "_inputs");
+            found.assumed = assumed;
+            found.assumed_from = register_of(scenario);
             bound(quantity, found);
         }
+    }
+
+    /// @return the register's path relative to the page
+    [[nodiscard]] static std::string register_of(const std::string& scenario) {
+        return "runs/" + scenario + "_assumptions/assumptions.json";
+    }
+
+    /// Every assumed value less and more; written beside the runs.
+    [[nodiscard]] std::shared_ptr<const assumptions::Register> weigh_assumptions(
+        const std::string& scenario, const scenario::Scenario& nominal) const {
+        say(scenario + "_assumptions: each assumed value less and more");
+        assumptions::RegisterOptions how{.seeds = {}, .jobs = options_.jobs, .stop = watch_.stop};
+        const std::uint64_t seeds = options_.quick ? 2 : 8;
+        for (std::uint64_t k = 0; k < seeds; ++k) {
+            how.seeds.push_back(nominal.seed + k);
+        }
+        const auto all = std::make_shared<const assumptions::Register>(
+            assumptions::weigh({to_yaml(nominal), scenario}, scenario, how));
+        const fs::path file = options_.folder / register_of(scenario);
+        fs::create_directories(file.parent_path());
+        if (!write_file(file, register_json(*all) + "\n")) {
+            throw InputError(fmt::format("cannot write {}: is the disk full?", file.string()));
+        }
+        say("");
+        return all;
     }
 
     /// One that flies this vehicle in this program; empty without any.

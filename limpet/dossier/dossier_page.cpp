@@ -8,6 +8,7 @@
 #include "limpet/core/version.hpp"
 #include "limpet/dossier/dossier.hpp"
 #include "limpet/dossier/dossier_runs.hpp"
+#include "limpet/paper/registers.hpp"
 #include "limpet/report/page.hpp"
 #include "limpet/scenario/data_folder.hpp"
 
@@ -121,6 +122,41 @@ PageTable bounds(const DossierFile& file, const std::map<std::string, QuantityFo
     return table;
 }
 
+/// A quantity's figure in the register: of an outcome, the share of the successes.
+std::string weighed_figure(const Quantity& quantity) {
+    const study::StudyFigure figure = study::parse_figure(quantity.figure);
+    return figure.event.outcome ? std::string(assumptions::kSuccess) : figure.event.figure;
+}
+
+/// What each quantity hangs on that no measurement stands behind, and what would settle it.
+std::vector<report::PageBlock> assumed(const DossierFile& file,
+                                       const std::map<std::string, QuantityFound>& all) {
+    PageTable moves{.id = "assumptions",
+                    .title = "What the numbers hang on",
+                    .columns = paper::kMovedColumns,
+                    .caption =
+                        "Of every value whose source is \"assumed\", turned by itself and flown: "
+                        "the five that move the number most, with the standard error by the "
+                        "scatter over seeds. Each links to the register, a JSON file with every "
+                        "value and every figure."};
+    PageTable settled{.id = "measurements",
+                      .title = "What to measure first",
+                      .columns = paper::kSettledColumns,
+                      .caption =
+                          "The share of the sum of squared changes that a measurement would "
+                          "settle, were each value as uncertain as the next."};
+    for (const Quantity& one : file.quantities) {
+        const QuantityFound& found = all.at(one.name);
+        const std::string figure = weighed_figure(one);
+        for (auto& row : paper::moved_rows(one.figure, figure, *found.assumed)) {
+            add_row(moves, std::move(row), Links(paper::kMovedColumns.size(), found.assumed_from));
+        }
+        add_row(settled, paper::settled_row(one.figure, figure, *found.assumed),
+                Links(paper::kSettledColumns.size(), found.assumed_from));
+    }
+    return {moves, settled};
+}
+
 PageTable evidence(const DossierFile& file, const std::map<std::string, QuantityFound>& all) {
     PageTable table{.id = "evidence",
                     .title = "Validation evidence",
@@ -232,6 +268,7 @@ std::vector<fs::path> write_dossier(const DossierOptions& options, const Dossier
                       .title = "How sure each number is",
                       .blocks = {numbers(file, all), bounds(file, all)}},
                      {.id = "validation", .title = "Evidence", .blocks = {evidence(file, all)}},
+                     {.id = "assumed", .title = "Assumptions", .blocks = assumed(file, all)},
                      {.id = "pedigree", .title = "Inputs", .blocks = {pedigree(file)}},
                      {.id = "credibility", .title = "Factors", .blocks = {factors(file, all)}}};
     if (std::get<PageTable>(page.sections[2].blocks.front()).rows.empty()) {

@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "limpet/assumptions/assumptions.hpp"
 #include "limpet/dossier/dossier.hpp"
 #include "limpet/report/page.hpp"
 #include "limpet/study/study.hpp"
@@ -70,6 +72,9 @@ struct QuantityFound {
     std::string other_engine;
     study::StudyFound inputs;
     std::string inputs_from;
+    /// Every assumed value of the scenario turned: the quantities of a scenario share it.
+    std::shared_ptr<const assumptions::Register> assumed;
+    std::string assumed_from;
     /// Of the inputs' and seeds' spread, moved by the numerical error to the unsafe side.
     std::optional<double> bound;
     double numerical = 0.0;  ///< that error: step and engine at the far ends of their intervals

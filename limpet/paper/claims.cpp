@@ -59,7 +59,8 @@ report::Quantity difference(const report::Quantity& stated, double value, bool h
 
 }  // namespace
 
-report::Claim judge(const PaperStatement& statement, const Evidence& evidence) {
+report::Claim judge(const PaperStatement& statement, const Evidence& evidence,
+                    const std::vector<TurnedEvidence>& turned) {
     report::Claim claim = statement.claim;
     if (statement.evidence.empty()) {
         claim.simulated = "not simulated";
@@ -67,11 +68,22 @@ report::Claim judge(const PaperStatement& statement, const Evidence& evidence) {
         return claim;
     }
     const double value = evidence.get(statement.evidence);
-    const bool holds = value >= statement.accepted.low && value <= statement.accepted.high;
+    const auto accepts = [&statement](double one) {
+        return one >= statement.accepted.low && one <= statement.accepted.high;
+    };
+    const bool holds = accepts(value);
     claim.accepted = accepted_text(statement);
     claim.simulated = shown(value, statement.yes_no);
     claim.difference = difference(claim.paper, value, holds);
     claim.verdict = holds ? report::Verdict::reproduced : report::Verdict::differs;
+    claim.turned = static_cast<int>(turned.size());
+    for (const TurnedEvidence& one : turned) {
+        if (accepts(one.value) != holds) {
+            claim.hangs_on.push_back(fmt::format(
+                "{}: {}", one.turn, report::to_text(shown(one.value, statement.yes_no))));
+            claim.verdict = report::Verdict::hangs_on_assumptions;
+        }
+    }
     return claim;
 }
 

@@ -53,8 +53,16 @@ struct PaperStatement {
 [[nodiscard]] std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
                                                           const std::vector<std::string>& measured);
 
+/// The evidence with an assumed value turned.
+struct TurnedEvidence {
+    std::string turn;    ///< "`vehicle.slider.damping_N_s_m` 20 % less"
+    double value = 0.0;  ///< NaN: it did not come to pass
+};
+
 /// reproduced: the evidence lies within the accepted range; differs: it does not, or did not come
-/// to pass; not modelled: there is no evidence to look for.
-[[nodiscard]] report::Claim judge(const PaperStatement& statement, const Evidence& evidence);
+/// to pass; hangs on assumptions: it does not, or does, with a value turned; not modelled: there is
+/// no evidence to look for.
+[[nodiscard]] report::Claim judge(const PaperStatement& statement, const Evidence& evidence,
+                                  const std::vector<TurnedEvidence>& turned = {});
 
 }  // namespace limpet::paper

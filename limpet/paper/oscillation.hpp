@@ -16,6 +16,10 @@
 namespace limpet::paper {
 
 using stability::Overrides;
+struct Study;
+/// The scenarios of slow motors, and of Gazebo's.
+inline constexpr const char* kSlow = "slow_motors_metal";
+inline constexpr const char* kGazebo = "perch_metal";
 /// What the paper's vehicle, and each change to it here, keeps.
 inline constexpr const char* kSwings = "a vehicle that rests on its cup and swings";
 /// Both; where they set the same key the second counts.
@@ -60,6 +64,9 @@ struct SwingMissions {
 };
 [[nodiscard]] SwingMissions swing_missions(const std::string& scenario, const Overrides& overrides,
                                            std::uint32_t runs, int jobs);
+
+/// Fig. "fig-swing", its table and evidence: the missions of six cases, and with values turned.
+void study_missions(Study& study);
 
 /// How the same vehicle hovers in free air, with its sensors' noise.
 /// @return largest tilt after the first seconds [deg]

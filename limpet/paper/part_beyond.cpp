@@ -2,6 +2,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/paper/rigs.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/paper/turned.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -29,10 +30,14 @@ void study_releases(Study& study) {
                        times.back().without_valve_s / times.back().with_valve_s);
 }
 
+int spread_flights(const Study& study) {
+    return study.quick ? 3 : 15;
+}
+
 void study_spread(Study& study) {
     study.say("spread of release times");
     study.evidence.set("release.valve_spread_ratio",
-                       valve_spread_ratio(study.quick ? 3 : 15, study.jobs));
+                       valve_spread_ratio(spread_flights(study), study.jobs));
 }
 
 void study_energy(Study& study) {
@@ -51,10 +56,36 @@ void study_energy(Study& study) {
     study.table("energy-table", rows);
 }
 
+/// The flights of two statements with every assumed value turned; the spread takes more flights: of
+/// it those values that its statement names.
+void turn_rigs(Study& study) {
+    do_again(study, {.name = "rigs",
+                     .evidence = {"release.valve_gain_metal", "energy.perched_share"},
+                     .turns = turns_of(rig_scenarios()),
+                     .measure = [](const Turn& turn) {
+                         const ReleaseTime time = turned_release_time(turn);
+                         Evidence evidence;
+                         evidence.set("release.valve_gain_metal",
+                                      time.without_valve_s / time.with_valve_s);
+                         evidence.set("energy.perched_share", turned_perched_share(turn));
+                         return evidence;
+                     }});
+    do_again(study, {.name = "spread",
+                     .evidence = {"release.valve_spread_ratio"},
+                     .turns = turns_named(study, {"release.valve_spread_ratio"}),
+                     .measure = [&study](const Turn& turn) {
+                         Evidence evidence;
+                         evidence.set("release.valve_spread_ratio",
+                                      valve_spread_ratio(spread_flights(study), 1, turn));
+                         return evidence;
+                     }});
+}
+
 void study_beyond(Study& study) {
     study_releases(study);
     study_spread(study);
     study_energy(study);
+    turn_rigs(study);
     TableRows rows;
     for (const BreakOff& load : break_off_loads()) {
         rows.push_back({load.surface, hectopascals(load.pressure_Pa), load.pull_N, load.shear_N,

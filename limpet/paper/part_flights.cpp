@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parallel.hpp"
+#include "limpet/draw/gnuplot.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/rigs.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/paper/turned.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
 #include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -71,7 +80,7 @@ const PaperFlight& flight_of(const std::vector<PaperFlight>& flights, const std:
 }
 
 /// Values of one flight that need another.
-void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidence) {
+void measure_together(const record::Recording& concrete, Evidence& evidence) {
     evidence.set("perch_concrete.pitch_off_legs_deg",
                  std::abs(evidence.get("perch_concrete.perched_pitch_deg") -
                           evidence.get("vehicle.pitch_on_legs_deg")));
@@ -83,11 +92,117 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
                                                       evidence.get("perch_low_wall.rested") < 0.5
                                                   ? 1.0
                                                   : 0.0);
-    const record::Recording& concrete = flight_of(flights, "perch_concrete").recording;
     const record::RecordedEvent* approach = first_event(concrete, EventName::approach_started);
     const auto chapter = perching(concrete);
     evidence.set("fig11.approach_at_s",
                  approach != nullptr && chapter ? approach->time_s - chapter->window.from_s : kNaN);
+}
+
+double pitch_on_legs_deg(const FlightOrder& order) {
+    return degrees(vehicle::pitch_on_legs_rad(
+        scenario::load_scenario(order.scenario, {.overrides = order.overrides}).airframe));
+}
+
+/// Of all evidence of the flights.
+std::vector<std::string> names_of_flights() {
+    Evidence named;  // of flights that never were: every name, no value
+    for (const FlightOrder& order : orders()) {
+        measure(PaperFlight{.name = order.name, .result = {}, .recording = {}}, named);
+    }
+    measure_together({}, named);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : named.all()) {
+        names.push_back(name);
+    }
+    return names;
+}
+
+/// The flights that evidence of a name is measured on.
+std::vector<std::string> flights_behind(const std::string& name) {
+    static const std::map<std::string, std::vector<std::string>> kTogether = {
+        {"slider.contact_ratio", {"failed_perch", "failed_perch_stiff_slider"}},
+        {"perch_near.approach_ratio", {"perch_near", "perch_concrete"}},
+        {"fig11.approach_at_s", {"perch_concrete"}}};
+    const auto found = kTogether.find(name);
+    return found == kTogether.end() ? std::vector{name.substr(0, name.find('.'))} : found->second;
+}
+
+/// Those behind statements that are said to rest on a key.
+std::set<std::string> flights_resting_on(const std::string& key, const Study& study) {
+    std::set<std::string> flights;
+    for (const PaperStatement& statement : study.statements) {
+        const auto& assumes = statement.claim.assumes;
+        if (std::find(assumes.begin(), assumes.end(), key) != assumes.end()) {
+            for (std::string& flight : flights_behind(statement.evidence)) {
+                flights.insert(std::move(flight));
+            }
+        }
+    }
+    return flights;
+}
+
+/// The flights again in which a value is assumed; of --quick those behind statements that name it.
+class TurnedFlights {
+public:
+    /// @param concrete  the recording of perch_concrete as it is
+    TurnedFlights(const Study& study, const record::Recording& concrete)
+        : study_(study), as_it_is_(study.evidence), concrete_(concrete) {
+        for (const FlightOrder& order : orders()) {
+            scenarios_.push_back(
+                scenario::load_scenario(order.scenario, {.overrides = order.overrides}));
+        }
+    }
+
+    [[nodiscard]] const std::vector<scenario::Scenario>& scenarios() const { return scenarios_; }
+
+    /// What the flights tell that were flown again.
+    [[nodiscard]] Evidence measure_again(const Turn& turn) const {
+        const draw::gnuplot::TemporaryFolder scratch;
+        const std::set<std::string> wanted = flights_resting_on(turn.key, study_);
+        std::set<std::string> again;
+        Evidence evidence = as_it_is_;
+        std::optional<record::Recording> concrete;
+        for (std::size_t i = 0; i < orders().size(); ++i) {
+            FlightOrder order = orders()[i];
+            const auto set = override_of(turn, scenarios_[i]);
+            if (!set || (study_.quick && !wanted.contains(order.name))) {
+                continue;
+            }
+            order.overrides.push_back(*set);
+            again.insert(order.name);
+            PaperFlight flight = fly_recorded(order, scratch.path());
+            measure(flight, evidence);
+            if (flight.name == "perch_concrete") {
+                evidence.set("vehicle.pitch_on_legs_deg", pitch_on_legs_deg(order));
+                concrete = std::move(flight.recording);
+            }
+        }
+        measure_together(concrete ? *concrete : concrete_, evidence);
+        Evidence told;
+        for (const auto& [name, value] : evidence.all()) {
+            const std::vector<std::string> behind = flights_behind(name);
+            if (std::any_of(behind.begin(), behind.end(), [&again](const std::string& flight) {
+                    return again.contains(flight);
+                })) {
+                told.set(name, value);
+            }
+        }
+        return told;
+    }
+
+private:
+    const Study& study_;
+    Evidence as_it_is_;
+    const record::Recording& concrete_;
+    std::vector<scenario::Scenario> scenarios_;
+};
+
+void turn_flights(Study& study, const record::Recording& concrete) {
+    const TurnedFlights flights(study, concrete);
+    do_again(study, {.name = "flights",
+                     .evidence = names_of_flights(),
+                     .turns = turns_of(flights.scenarios()),
+                     .measure = [&](const Turn& turn) { return flights.measure_again(turn); }});
 }
 
 TableRows flight_rows(const std::vector<PaperFlight>& flights) {
@@ -113,7 +228,8 @@ void study_flights(Study& study) {
     for (const PaperFlight& flight : flights) {
         measure(flight, study.evidence);
     }
-    measure_together(flights, study.evidence);
+    measure_together(flight_of(flights, "perch_concrete").recording, study.evidence);
+    turn_flights(study, flight_of(flights, "perch_concrete").recording);
 
     study.say("figures of the flights");
     const std::vector<std::string> drawn = {"perch_concrete", "perch_metal", "failed_perch"};
@@ -146,14 +262,7 @@ StudyPart flights_part() {
     for (const PaperFigure& figure : kFigures) {
         part.shows.emplace_back(figure.id);
     }
-    Evidence named;  // of flights that never were: every name, no value
-    std::vector<PaperFlight> flights(orders().size());
-    for (std::size_t i = 0; i < flights.size(); ++i) {
-        flights[i].name = orders()[i].name;
-        measure(flights[i], named);
-    }
-    measure_together(flights, named);
-    for (const auto& [name, value] : named.all()) {
+    for (const std::string& name : names_of_flights()) {
         part.measures.push_back(name);
     }
     return part;

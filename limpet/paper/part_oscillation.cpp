@@ -6,22 +6,18 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <string_view>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/find_by.hpp"
 #include "limpet/core/parallel.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/oscillation.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/paper/turned.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {
 namespace {
-
-constexpr const char* kSlow = "slow_motors_metal";
-constexpr const char* kGazebo = "perch_metal";
 
 // --- the stability map ------------------------------------------------------------------------
 
@@ -214,6 +210,24 @@ std::vector<Change> changes(const Study& study) {
     return all;
 }
 
+/// The kicked flight that a statement is judged by.
+void turn_growth(Study& study) {
+    const std::string changed = "autopilot.MC_PITCHRATE_P=0.2";
+    const scenario::Scenario slow = scenario::load_scenario(kSlow, {.overrides = {changed}});
+    do_again(study, {.name = "kicked",
+                     .evidence = {"swing.rate_p_growth_1_s"},
+                     .turns = turns_of({slow}),
+                     .measure = [&](const Turn& turn) {
+                         Evidence evidence;
+                         if (const auto set = override_of(turn, slow)) {
+                             if (const auto swing = kicked_swing(kSlow, {changed, *set})) {
+                                 evidence.set("swing.rate_p_growth_1_s", swing->growth_1_s);
+                             }
+                         }
+                         return evidence;
+                     }});
+}
+
 void study_changes(Study& study) {
     study.say("kicked flights");
     draw::ChartPanel traces{.title = "pitch after a kick",
@@ -248,79 +262,13 @@ void study_changes(Study& study) {
         study.evidence.set("swing." + change.key + "_frequency_Hz", change.mode.frequency_Hz);
     }
     bars.series = {linear, flown};
+    turn_growth(study);
     study.draw("fig-cures", {.panels = {traces, bars}});
     study.table("cures", rows);
     study.evidence.set(
         "swing.long_pivot_frequency_Hz",
         required(stability::linear_swing(kSlow, {"vehicle.cup.joint_x_m=0.55"}), kSwings)
             .frequency_Hz);
-}
-
-// --- whole missions ---------------------------------------------------------------------------
-
-struct MissionCase {
-    const char* key;
-    const char* name;
-    const char* scenario;
-    Overrides overrides = {};
-    SwingMissions missions = {};
-};
-
-std::vector<MissionCase> fly_missions(const Study& study) {
-    std::vector<MissionCase> all = {
-        {"gazebo_metal", "Gazebo's motors, still air, metal", kGazebo},
-        {"gazebo_air_metal",
-         "Gazebo's motors, air at the wall, metal",
-         kGazebo,
-         {"environment.wall_aerodynamics=1", "environment.recirculation_moment_rms_N_m=0.1"}},
-        {"metal", "slow motors, air at the wall, metal", kSlow},
-        {"valve", "the same with a valve", kSlow, {"suction.valve_fitted=1"}},
-        {"concrete", "slow motors, air at the wall, concrete", "slow_motors_concrete"},
-        {"gazebo_concrete", "Gazebo's motors, still air, concrete", "perch_concrete"},
-    };
-    const std::uint32_t runs = study.quick ? 24 : 200;
-    for (MissionCase& one : all) {
-        study.say(std::string("missions: ") + one.name);
-        // The swing shall be seen as it grows: the limit that ends a release does not count here.
-        one.overrides.emplace_back("guidance.oscillation_limit_deg=60");
-        one.missions = swing_missions(one.scenario, one.overrides, runs, study.jobs);
-    }
-    return all;
-}
-
-const SwingMissions& of(const std::vector<MissionCase>& cases, std::string_view key) {
-    const MissionCase* found = find_by(cases, &MissionCase::key, key);
-    require(found != nullptr, "missions of that name");
-    return found->missions;
-}
-
-void study_missions(Study& study) {
-    const std::vector<MissionCase> cases = fly_missions(study);
-    // Next to each other: distributions over each other hide those that coincide.
-    draw::ChartPanel panel{.y_label = "largest pitch while waiting for the release  [deg]",
-                           .levels = {{.at = 5.0, .label = "paper: 5 deg"}},
-                           .log_y = true};
-    draw::ChartSeries medians{.name = "median, and from 5 to 95 % of the missions",
-                              .mark = draw::ChartSeries::Mark::points};
-    TableRows rows;
-    for (const MissionCase& one : cases) {
-        const SwingMissions& missions = one.missions;
-        const double median_deg = missions.quantile(0.5), most_deg = missions.quantile(0.95);
-        medians.add(panel.category(one.name), median_deg, {missions.quantile(0.05), most_deg});
-        rows.push_back({one.name, static_cast<double>(missions.runs),
-                        static_cast<double>(missions.attached), missions.quantile(0.05), median_deg,
-                        most_deg});
-        study.evidence.set(fmt::format("swing.{}_median_deg", one.key), median_deg);
-        study.evidence.set(fmt::format("swing.{}_p95_deg", one.key), most_deg);
-    }
-    panel.series = {medians};
-    study.draw("fig-swing", {.panels = {panel}, .column_px = 1000.0});
-    study.table("swing-missions", rows);
-    study.evidence.set(
-        "swing.concrete_more_deg",
-        of(cases, "concrete").median_swing_deg() - of(cases, "gazebo_concrete").median_swing_deg());
-    study.evidence.set("swing.metal_over_concrete",
-                       of(cases, "metal").quantile(0.5) / of(cases, "concrete").quantile(0.5));
 }
 
 /// A take-off of the slow vehicle, for Figs. 12 and 14.

@@ -2,6 +2,7 @@
 #include "limpet/paper/reproduce.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -47,7 +48,8 @@ std::vector<report::Claim> judged(const Study& study, const std::vector<StudyPar
         if (!all && !study.evidence.has(statement.evidence)) {
             continue;
         }
-        report::Claim& claim = claims.emplace_back(judge(statement, study.evidence));
+        report::Claim& claim = claims.emplace_back(
+            judge(statement, study.evidence, study.turned_of(statement.evidence)));
         if (shown.count(claim.figure) == 0) {
             require(!all || claim.figure.empty(), "the figure of a statement is on the page");
             claim.figure.clear();
@@ -72,6 +74,8 @@ Evidence counted(const std::vector<report::Claim>& claims) {
             name = "not_modelled";
         } else if (!claim.same_as.empty()) {
             name = "said_twice";
+        } else if (claim.verdict == report::Verdict::hangs_on_assumptions) {
+            name = "hang_on_assumptions";
         } else if (!reproduced) {
             name = claim.basis == "measured" ? "measured_differs" : "others_differ";
         }
@@ -81,6 +85,26 @@ Evidence counted(const std::vector<report::Claim>& claims) {
     for (const std::string& name : kSummaryCounts) {
         all.set(name, counts[name]);
     }
+    return all;
+}
+
+std::vector<std::pair<std::string, std::vector<std::string>>> hanging(
+    const std::vector<report::Claim>& claims) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> all;
+    for (const report::Claim& claim : claims) {
+        for (const std::string& one : claim.hangs_on) {
+            const std::string turn = one.substr(0, one.find(": "));
+            auto found = std::find_if(all.begin(), all.end(),
+                                      [&turn](const auto& each) { return each.first == turn; });
+            if (found == all.end()) {
+                found = all.insert(all.end(), {turn, {}});
+            }
+            found->second.push_back(claim.id);
+        }
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.second.size() > b.second.size();
+    });
     return all;
 }
 
@@ -140,6 +164,17 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
                              .title = "What the paper says, line by line",
                              .blocks = {report::ClaimTable{}}});
     page.claims = judged(study, chosen, options.only.empty());
+    report::PageTable hangs{.id = "hang-on",
+                            .title = "What verdicts hang on",
+                            .columns = {"value turned", "statements", "which"}};
+    for (const auto& [turn, ids] : hanging(page.claims)) {
+        hangs.rows.push_back(
+            {turn, static_cast<double>(ids.size()), fmt::format("{}", fmt::join(ids, ", "))});
+        result.hanging.push_back(fmt::format("{}: {} statements", turn, ids.size()));
+    }
+    if (!hangs.rows.empty()) {
+        page.sections.back().blocks.emplace_back(std::move(hangs));
+    }
     result.counts = counted(page.claims);
     for (const std::string& paragraph : text.summary) {
         page.summary.push_back(

@@ -34,6 +34,7 @@ struct Reproduction {
     report::Page page = {};
     std::vector<std::filesystem::path> files = {};  ///< index.html, results.json
     Evidence counts = {};                           ///< of the statements: kSummaryCounts
+    std::vector<std::string> hanging = {};          ///< "`KEY` 20 % less: 3 statements", most first
     std::vector<std::string> notes = {};            ///< what no claim says, a line each
 };
 

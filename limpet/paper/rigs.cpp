@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/rigs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/parallel.hpp"
@@ -104,16 +107,47 @@ EnergyUse energy_of(const std::string& what, double energy_Wh, double time_s,
     return {.what = what, .power_W = power_W, .endurance_h = battery_Wh / power_W};
 }
 
+/// With a value turned, where it is assumed.
+scenario::Scenario scenario_with(const char* name, std::vector<std::string> overrides,
+                                 const std::optional<Turn>& turn) {
+    const scenario::Scenario as_it_is = scenario::load_scenario(name, {.overrides = overrides});
+    const auto set = turn ? override_of(*turn, as_it_is) : std::nullopt;
+    if (!set) {
+        return as_it_is;
+    }
+    overrides.push_back(*set);
+    return scenario::load_scenario(name, {.overrides = overrides});
+}
+
 /// From pump off to detached, in a whole flight with all the time in the world.
-double release_s(const Wall& wall, bool valve, std::vector<std::string> overrides) {
+double release_s(const Wall& wall, bool valve, std::vector<std::string> overrides,
+                 const std::optional<Turn>& turn) {
     for (const char* key :
          {"guidance.rest_s=1", "guidance.release_limit_s=600", "guidance.stuck_s=60"}) {
         overrides.emplace_back(key);
     }
     overrides.emplace_back(valve ? "suction.valve_fitted=1" : "suction.valve_fitted=0");
-    return simulation::fly(simulation::build_model(
-                               scenario::load_scenario(wall.scenario, {.overrides = overrides})))
+    return simulation::fly(
+               simulation::build_model(scenario_with(wall.scenario, std::move(overrides), turn)))
         .metrics.release_s;
+}
+
+EnergyUse hovering(const std::optional<Turn>& turn) {
+    const scenario::Scenario hover = scenario_with("hover", {"vehicle=perching_uav"}, turn);
+    const simulation::FlightResult hovered = simulation::fly(simulation::build_model(hover));
+    return energy_of("hovering", hovered.metrics.energy_flying_Wh, hovered.performance.simulated_s,
+                     hover.airframe);
+}
+
+EnergyUse perched(const Wall& wall, const std::optional<Turn>& turn) {
+    constexpr double kRest_s = 60.0;
+    const scenario::Scenario scenario =
+        scenario_with(wall.scenario, {"mission=perch", "guidance.rest_s=60"}, turn);
+    const simulation::FlightResult rested = simulation::fly(simulation::build_model(scenario));
+    EnergyUse use = energy_of(std::string("perched on ") + wall.surface,
+                              rested.metrics.energy_perched_Wh, kRest_s, scenario.airframe);
+    use.getting_there_Wh = rested.metrics.energy_flying_Wh;
+    return use;
 }
 
 }  // namespace
@@ -158,23 +192,29 @@ std::vector<BreakOff> break_off_loads() {
 }
 
 std::vector<EnergyUse> energy_use(Evidence& evidence) {
-    std::vector<EnergyUse> uses;
-    const scenario::Scenario hover =
-        scenario::load_scenario("hover", {.overrides = {"vehicle=perching_uav"}});
-    const simulation::FlightResult hovered = simulation::fly(simulation::build_model(hover));
-    uses.push_back(energy_of("hovering", hovered.metrics.energy_flying_Wh,
-                             hovered.performance.simulated_s, hover.airframe));
+    std::vector<EnergyUse> uses = {hovering({})};
     for (const Wall& wall : kWalls) {
-        constexpr double kRest_s = 60.0;
-        const scenario::Scenario scenario = scenario::load_scenario(
-            wall.scenario, {.overrides = {"mission=perch", "guidance.rest_s=60"}});
-        const simulation::FlightResult rested = simulation::fly(simulation::build_model(scenario));
-        uses.push_back(energy_of(std::string("perched on ") + wall.surface,
-                                 rested.metrics.energy_perched_Wh, kRest_s, scenario.airframe));
-        uses.back().getting_there_Wh = rested.metrics.energy_flying_Wh;
+        uses.push_back(perched(wall, {}));
     }
     evidence.set("energy.perched_share", uses[1].power_W / uses[0].power_W);
     return uses;
+}
+
+double turned_perched_share(const Turn& turn) {
+    return perched(kWalls[0], turn).power_W / hovering(turn).power_W;
+}
+
+std::vector<scenario::Scenario> rig_scenarios() {
+    return {scenario_with("hover", {"vehicle=perching_uav"}, {}),
+            scenario_with(kWalls.front().scenario, {}, {}),
+            scenario_with(kWalls.back().scenario, {}, {})};
+}
+
+ReleaseTime turned_release_time(const Turn& turn) {
+    const Wall& metal = kWalls.back();
+    return {.surface = metal.surface,
+            .without_valve_s = release_s(metal, false, {}, turn),
+            .with_valve_s = release_s(metal, true, {}, turn)};
 }
 
 std::vector<ReleaseTime> release_times(int jobs) {
@@ -184,12 +224,12 @@ std::vector<ReleaseTime> release_times(int jobs) {
         const bool valve = i % 2 == 1;
         times[i / 2].surface = wall.surface;
         (valve ? times[i / 2].with_valve_s : times[i / 2].without_valve_s) =
-            release_s(wall, valve, {});
+            release_s(wall, valve, {}, {});
     });
     return times;
 }
 
-double valve_spread_ratio(int flights, int jobs) {
+double valve_spread_ratio(int flights, int jobs, const std::optional<Turn>& turn) {
     const std::size_t each = kWalls.size() * static_cast<std::size_t>(flights);
     std::array<std::vector<double>, 2> times{std::vector<double>(each), std::vector<double>(each)};
     for_each_index(2 * each, jobs, [&](std::size_t i) {
@@ -206,7 +246,8 @@ double valve_spread_ratio(int flights, int jobs) {
         times[valve ? 1 : 0][of] =
             release_s(wall, valve,
                       {fmt::format("seed={}", k + 1),
-                       fmt::format("wall.surface.unsealing_time_constant_s={:.6f}", tau_2_s)});
+                       fmt::format("wall.surface.unsealing_time_constant_s={:.6f}", tau_2_s)},
+                      turn);
     });
     const auto spread_s = [](std::vector<double>& of) {
         std::sort(of.begin(), of.end());

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "limpet/paper/claims.hpp"
+#include "limpet/paper/turned.hpp"
 
 /// Small experiments on parts of the simulation, each on the code that flies.
 namespace limpet::paper {
@@ -35,6 +37,8 @@ struct EnergyUse {
 /// Hovering, and perched on each surface with the motors off; "energy.perched_share" is the power
 /// perched on concrete over that of hovering.
 [[nodiscard]] std::vector<EnergyUse> energy_use(Evidence& evidence);
+/// That share with a value turned.
+[[nodiscard]] double turned_perched_share(const Turn& turn);
 
 /// How long the cup takes to let go once the pump is off.
 struct ReleaseTime {
@@ -44,10 +48,16 @@ struct ReleaseTime {
 };
 /// Whole flights with all the time in the world, on each surface.
 [[nodiscard]] std::vector<ReleaseTime> release_times(int jobs);
+/// On metal, with a value turned.
+[[nodiscard]] ReleaseTime turned_release_time(const Turn& turn);
 
 /// How far release times are spread, with the valve over without: from 5 to 95 % of flights on
 /// every surface, each with another seed and another tau_2 within Table II's tolerance.
 /// @param flights  on each surface, with and without
-[[nodiscard]] double valve_spread_ratio(int flights, int jobs);
+/// @param turn     of a value, or none
+[[nodiscard]] double valve_spread_ratio(int flights, int jobs,
+                                        const std::optional<Turn>& turn = {});
+/// The scenario in which the energy, and in which the release on metal is flown.
+[[nodiscard]] std::vector<scenario::Scenario> rig_scenarios();
 
 }  // namespace limpet::paper

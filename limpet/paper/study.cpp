@@ -41,6 +41,12 @@ std::pair<double, double> Study::stated(const std::string& name) const {
     return {*number, found->accepted.high - *number};
 }
 
+const std::vector<TurnedEvidence>& Study::turned_of(const std::string& name) const {
+    static const std::vector<TurnedEvidence> kNone;
+    const auto found = turned.find(name);
+    return found == turned.end() ? kNone : found->second;
+}
+
 void Study::draw(const std::string& id, draw::Chart chart) {
     chart.title = find<report::PageFigure>(blocks, id).title;
     (void)draw_chart(chart, id, folder / "figures");
@@ -79,6 +85,15 @@ void Study::table(const std::string& id, TableRows rows) {
     find<report::PageTable>(blocks, id).rows = std::move(rows);
 }
 
+void Study::table(const std::string& id, TableRows rows, const std::vector<std::string>& links) {
+    require(links.size() == rows.size(), "a link for each row");
+    report::PageTable& of = find<report::PageTable>(blocks, id);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+        of.links.emplace_back(rows[i].size(), links[i]);
+    }
+    of.rows = std::move(rows);
+}
+
 void Study::say(const std::string& what) const {
     if (stop != nullptr && *stop) {
         throw Interrupted("interrupted");
@@ -115,8 +130,8 @@ report::Quantity number_or(double value, const char* words) {
 
 const std::vector<StudyPart>& parts() {
     static const std::vector<StudyPart> all = {
-        rotors_part(),   suction_part(),     trials_part(), flights_part(),
-        recorded_part(), oscillation_part(), causes_part(), beyond_part(),
+        rotors_part(),      suction_part(), trials_part(), flights_part(),     recorded_part(),
+        oscillation_part(), causes_part(),  beyond_part(), assumptions_part(),
     };
     return all;
 }

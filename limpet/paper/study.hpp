@@ -30,12 +30,15 @@ struct Study {
 
     std::vector<PaperStatement> statements = {};
     Evidence evidence = {};
+    /// What the evidence of a name is with an assumed value turned (do_again()).
+    std::map<std::string, std::vector<TurnedEvidence>> turned = {};
     std::vector<std::string> notes = {};  ///< a line each, for a terminal
     std::vector<report::PageBlock> blocks =
         {};  ///< of the part that runs, from data/paper/page.yaml
 
     /// The paper's number on what a part measures, and its tolerance.
     [[nodiscard]] std::pair<double, double> stated(const std::string& name) const;
+    [[nodiscard]] const std::vector<TurnedEvidence>& turned_of(const std::string& name) const;
     /// Draws a figure of the part's into figures/, under its title there.
     void draw(const std::string& id, draw::Chart chart);
     /// Takes FOLDER/flights/FLIGHT/PICTURE.png, and .svg if there is one, for a figure of the
@@ -45,6 +48,8 @@ struct Study {
     /// program was built without that page.
     void show(const std::string& flight) const;
     void table(const std::string& id, TableRows rows);
+    /// @param links  where each row comes from: a path relative to the page
+    void table(const std::string& id, TableRows rows, const std::vector<std::string>& links);
     /// A line that goes with the claims on a terminal.
     void note(std::string line) { notes.push_back(std::move(line)); }
     /// Reports what comes next; before that it stops where `stop` is set.
@@ -77,6 +82,7 @@ struct StudyPart {
 [[nodiscard]] StudyPart oscillation_part();  ///< the open question
 [[nodiscard]] StudyPart causes_part();       ///< of it, with probabilities
 [[nodiscard]] StudyPart beyond_part();       ///< valve, energy, break-off loads
+[[nodiscard]] StudyPart assumptions_part();  ///< what README.md's claims hang on
 /// In the paper's order.
 [[nodiscard]] const std::vector<StudyPart>& parts();
 
@@ -90,12 +96,19 @@ struct PageText {
 };
 
 /// Counts of statements that the summary may name: those measured and reproduced, measured and not;
-/// of every other basis those reproduced, and how many of them all are not; those that say once
-/// more what another does, which no other count holds; those not modelled.
+/// of every other basis those reproduced, and how many of them all are not; those whose verdict
+/// hangs on assumptions, whatever their basis; those that say once more what another does, which no
+/// other count holds; those not modelled.
 inline const std::vector<std::string> kSummaryCounts = {
-    "statements.measured",      "statements.measured_differs", "statements.as_set",
-    "statements.recovered",     "statements.fitted",           "statements.by_construction",
-    "statements.others_differ", "statements.said_twice",       "statements.not_modelled"};
+    "statements.measured",      "statements.measured_differs",
+    "statements.as_set",        "statements.recovered",
+    "statements.fitted",        "statements.by_construction",
+    "statements.others_differ", "statements.hang_on_assumptions",
+    "statements.said_twice",    "statements.not_modelled"};
+
+/// The statements whose verdicts hang on each turned value, by their ids; most first.
+[[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> hanging(
+    const std::vector<report::Claim>& claims);
 
 /// @return all of kSummaryCounts
 [[nodiscard]] Evidence counted(const std::vector<report::Claim>& claims);

@@ -32,15 +32,26 @@ const char* sign_of(Verdict verdict) {
     switch (verdict) {
         case Verdict::reproduced: return "✓";
         case Verdict::differs: return "≠";
+        case Verdict::hangs_on_assumptions: return "±";
         case Verdict::not_modelled: return "○";
+    }
+    throw InternalError("verdict out of range");
+}
+
+/// In the style sheet.
+const char* class_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::reproduced: return "reproduced";
+        case Verdict::differs: return "differs";
+        case Verdict::hangs_on_assumptions: return "hangs";
+        case Verdict::not_modelled: return "not-modelled";
     }
     throw InternalError("verdict out of range");
 }
 
 std::string badge(Verdict verdict, const std::string& text) {
     return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{} </span>{}</span>",
-                       verdict == Verdict::not_modelled ? "not-modelled" : to_text(verdict),
-                       sign_of(verdict), text);
+                       class_of(verdict), sign_of(verdict), text);
 }
 
 /// An id may go on in the next line where its words do, not within one.
@@ -115,7 +126,8 @@ private:
             return;
         }
         text_ += "<ul class=\"verdicts\">\n";
-        for (const Verdict verdict : {Verdict::reproduced, Verdict::differs}) {
+        for (const Verdict verdict :
+             {Verdict::reproduced, Verdict::hangs_on_assumptions, Verdict::differs}) {
             const auto count =
                 std::count_if(page_.claims.begin(), page_.claims.end(), [verdict](const Claim& c) {
                     return c.verdict == verdict && c.basis == "measured" && c.same_as.empty();
@@ -257,13 +269,29 @@ private:
                                  fmt::join(claim.assumes, "`, `"));
     }
 
+    /// What of the flights with values turned: " Hangs on ..." or nothing.
+    static std::string hangs_on(const Claim& claim) {
+        return claim.hangs_on.empty() ? ""
+                                      : fmt::format("{}Hangs on {}.", claim.note.empty() ? "" : " ",
+                                                    fmt::join(claim.hangs_on, "; "));
+    }
+
+    /// How many values were turned without another verdict.
+    static std::string held(const Claim& claim) {
+        const bool holds = claim.turned > 0 && claim.hangs_on.empty();
+        return holds
+                   ? fmt::format("<span class=\"basis\">same with each of {} values turned</span>",
+                                 claim.turned)
+                   : "";
+    }
+
     void claim_row(const Claim& claim) {
         add("<tr role=\"row\" id=\"{}\">", claim.id);
         cell("id", breakable(claim.id), false);
         cell("where", escaped(claim.section), false);
         add("<th role=\"rowheader\" scope=\"row\">{}", draw::html::marked_up(claim.statement));
         text_ += if_any("<span class=\"note\">{}</span>",
-                        draw::html::marked_up(claim.note + rests_on(claim))) +
+                        draw::html::marked_up(claim.note + rests_on(claim) + hangs_on(claim))) +
                  "</th>";
         cell("paper", with_unit(claim.paper, claim.unit));
         cell("simulated", with_unit(claim.simulated, claim.unit));
@@ -271,7 +299,8 @@ private:
         cell("verdict",
              badge(claim.verdict, to_text(claim.verdict)) +
                  if_any("<span class=\"basis\">{}</span>", escaped(claim.basis)) +
-                 if_any("<span class=\"basis\">accepted {}</span>", escaped(claim.accepted)),
+                 if_any("<span class=\"basis\">accepted {}</span>", escaped(claim.accepted)) +
+                 held(claim),
              false);
         cell("see",
              if_any("<a href=\"#{}\">figure</a>", claim.figure) +

@@ -21,8 +21,9 @@ enum class Verdict {
     reproduced,
     differs,
     not_modelled,
+    hangs_on_assumptions,  ///< another with an assumed value turned
 };
-/// "reproduced", "differs", "not modelled"
+/// "reproduced", "differs", "not modelled", "hangs on assumptions"
 [[nodiscard]] const char* to_text(Verdict verdict);
 
 /// One statement of the paper. Nothing may be empty but what may be by its comment.
@@ -38,7 +39,10 @@ struct Claim {
     std::string accepted = {};  ///< of the simulated value: "0.8 … 1.4", "at least 2"; may be empty
     std::string basis = {};     ///< how the simulated value came about: "measured"; may be empty
     std::vector<std::string> assumes = {};  ///< keys on whose assumed values the verdict rests
-    std::string same_as = {};               ///< id of the same claim stated elsewhere; may be empty
+    /// With which of them turned the verdict is another, and what it is then.
+    std::vector<std::string> hangs_on = {};
+    int turned = 0;  ///< assumed values of the experiment that were turned, one by one; 0: none
+    std::string same_as = {};    ///< id of the same claim stated elsewhere; may be empty
     std::string note = {};       ///< why it differs, where bounds come from; may be empty
     std::string figure = {};     ///< id of a figure of the page; may be empty
     std::string recording = {};  ///< path relative to the page; may be empty

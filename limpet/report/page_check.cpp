@@ -96,6 +96,8 @@ private:
         promise(!blank(claim.section) && !blank(claim.statement) && !blank(claim.paper) &&
                     !blank(claim.simulated) && !blank(claim.difference),
                 "claim " + claim.id + " is left blank");
+        promise((claim.verdict == Verdict::hangs_on_assumptions) == !claim.hangs_on.empty(),
+                "claim " + claim.id + " hangs on assumptions that are not named, or the reverse");
         promise(
             claim.figure.empty() || figures_.count(claim.figure) > 0,
             fmt::format("claim {} names a figure {} that is not there", claim.id, claim.figure));
@@ -122,6 +124,7 @@ const char* to_text(Verdict verdict) {
     switch (verdict) {
         case Verdict::reproduced: return "reproduced";
         case Verdict::differs: return "differs";
+        case Verdict::hangs_on_assumptions: return "hangs on assumptions";
         case Verdict::not_modelled: return "not modelled";
     }
     throw InternalError("verdict out of range");

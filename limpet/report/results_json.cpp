@@ -39,6 +39,8 @@ Json json_of(const Claim& claim) {
             {"accepted", or_null(claim.accepted)},
             {"basis", or_null(claim.basis)},
             {"assumes", claim.assumes},
+            {"hangs_on", claim.hangs_on},
+            {"turned", claim.turned},
             {"same_as", or_null(claim.same_as)},
             {"note", or_null(claim.note)},
             {"figure", or_null(claim.figure)},

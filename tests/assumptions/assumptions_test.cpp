@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/model.hpp"
@@ -81,8 +82,11 @@ TEST(Weigh, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Weigh, AnOutcomeThatHangsOnAValueIsNamed) {
     Register all;
-    all.values.push_back(
-        {.assumption = {.key = "suction.radius_m", .unit = "m", .value = 0.04}, .flights = 2});
+    all.values.push_back({.assumption = {.key = "suction.radius_m",
+                                         .unit = "m",
+                                         .value = 0.04,
+                                         .neighbours = {0.036, 0.044}},
+                          .flights = 2});
     EXPECT_THAT(hangs_on_text(all), HasSubstr("hangs on none of 1 assumed values"));
     all.values.front().flips = {{1, 0.036, "crashed (fallen)"}};
     EXPECT_EQ(hangs_on_text(all),
@@ -138,6 +142,29 @@ TEST(Weigh, WhatMovesAFigureIsBeyondItsScatterAndLargestFirst) {
     EXPECT_EQ(that_move(all, "release_s", 1).size(), 1U);
 }
 
+TEST(SettledBy, MeasurementsSharesAreOfTheSumOfSquares) {
+    Register all;
+    const auto add = [&all](const char* by, double change) {
+        all.values.push_back({.assumption = {.key = by, .measurement = by},
+                              .effects = {{.metric = "release_s",
+                                           .base = 1.0,
+                                           .change = change,
+                                           .error = 0.0,
+                                           .seeds = 8}}});
+    };
+    add("a ruler", 0.3);
+    add("scales", 0.6);
+    add("a ruler", -0.4);
+    add(std::string(measurement_of("guidance.pre_speed_m_s")).c_str(), 0.8);
+    add("", 1.0);
+    const auto settled = settled_by(all, "release_s");
+    ASSERT_EQ(settled.size(), 2U) << "a choice and what nothing measures are no measurements";
+    EXPECT_EQ(settled[0].by, "scales");
+    EXPECT_DOUBLE_EQ(settled[0].share, 0.36 / 2.25);
+    EXPECT_DOUBLE_EQ(settled[1].share, 0.25 / 2.25);
+    EXPECT_THROW((void)settled_by(all, "no_such"), InternalError);
+}
+
 /// And none is for keys that no scenario has.
 TEST(Measurements, EachIsThatOfAnAssumedKey) {
     std::set<std::string_view> used;
@@ -148,6 +175,10 @@ TEST(Measurements, EachIsThatOfAnAssumedKey) {
                 EXPECT_FALSE(each.measurement.empty()) << each.key;
             }
             used.insert(measurement_of(each.key));
+            const bool in_metres = each.unit == "m";
+            const bool of_a_part =
+                each.key.starts_with("vehicle.") || each.key.starts_with("wall.");
+            EXPECT_EQ(each.measurement == "a ruler", in_metres && of_a_part) << each.key;
         }
     }
     for (const auto& [of, by] : measurements()) {

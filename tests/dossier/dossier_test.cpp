@@ -77,6 +77,25 @@ TEST(ToleranceBound, OfVeryManyFlights) {
     }
 }
 
+/// The time limit ends a hover: nothing that is assumed moves that.
+void expect_register(const nlohmann::json& json, const fs::path& folder) {
+    const auto table = [&json](const char* id) {
+        const auto& all = json.at("tables");
+        return *std::find_if(all.begin(), all.end(),
+                             [id](const auto& one) { return one.at("id") == id; });
+    };
+    const auto register_json = nlohmann::json::parse(
+        std::ifstream(folder / table("assumptions").at("links").at(0).at(0).get<std::string>()));
+    EXPECT_EQ(register_json.at("scenario"), "hover");
+    EXPECT_GT(register_json.at("values").size(), 50U);
+    for (const auto& row : table("assumptions").at("rows")) {
+        EXPECT_EQ(row.at(0), "simulated_s");
+        const std::string key = row.at(2);
+        EXPECT_TRUE(key.starts_with("none of ") || key.find('.') != key.npos) << key;
+    }
+    EXPECT_EQ(table("measurements").at("rows").size(), 1U);
+}
+
 TEST(Dossier, EveryNumberLinksToItsRun) {
     const Bench bench;
     const fs::path folder = bench.folder() / "dossier";
@@ -111,6 +130,7 @@ TEST(Dossier, EveryNumberLinksToItsRun) {
         }
     }
     EXPECT_EQ(seen, 2);
+    expect_register(json, folder);
 }
 
 TEST(Dossier, TheShippedFilePassesItsChecks) {

@@ -56,6 +56,21 @@ TEST(Judge, WhatDidNotComeToPassDiffers) {
     }
 }
 
+TEST(Judge, AVerdictThatATurnedValueChangesHangsOnIt) {
+    const PaperStatement statement = number(1.0, {0.8, 1.4});
+    report::Claim claim = judge(statement, with(1.0), {{"`a` 20 % less", 0.8}, {"`b`", 1.4}});
+    EXPECT_EQ(claim.verdict, report::Verdict::reproduced);
+    EXPECT_EQ(claim.turned, 2);
+    EXPECT_TRUE(claim.hangs_on.empty());
+    claim = judge(statement, with(1.0), {{"`a` 20 % less", 0.7}, {"`b`", 1.4}, {"`c`", kNaN}});
+    EXPECT_EQ(claim.verdict, report::Verdict::hangs_on_assumptions);
+    EXPECT_EQ(claim.hangs_on,
+              (std::vector<std::string>{"`a` 20 % less: 0.7", "`c`: did not come to pass"}));
+    claim = judge(statement, with(2.0), {{"`a` 20 % less", 2.1}, {"`b`", 1.2}});
+    EXPECT_EQ(claim.hangs_on, std::vector<std::string>{"`b`: 1.2"}) << "a differing one as well";
+    EXPECT_EQ(judge(statement, with(2.0), {{"`a`", 2.1}}).verdict, report::Verdict::differs);
+}
+
 TEST(Judge, WithoutEvidenceToLookForItIsNotModelled) {
     PaperStatement statement = number(1.0, {});
     statement.evidence.clear();
@@ -253,14 +268,30 @@ TEST(Counts, HeadlinesAreOfWhatWasMeasuredAlone) {
     const Evidence counts = counted(
         {claim("measured", Verdict::reproduced), claim("measured", Verdict::reproduced, "other"),
          claim("measured", Verdict::differs), claim("by construction", Verdict::reproduced),
-         claim("fitted", Verdict::differs), claim("", Verdict::not_modelled)});
+         claim("measured", Verdict::hangs_on_assumptions),
+         claim("fitted", Verdict::hangs_on_assumptions), claim("fitted", Verdict::differs),
+         claim("", Verdict::not_modelled)});
     EXPECT_EQ(counts.get("statements.measured"), 1.0);
     EXPECT_EQ(counts.get("statements.measured_differs"), 1.0);
     EXPECT_EQ(counts.get("statements.by_construction"), 1.0);
     EXPECT_EQ(counts.get("statements.fitted"), 0.0);
     EXPECT_EQ(counts.get("statements.others_differ"), 1.0);
+    EXPECT_EQ(counts.get("statements.hang_on_assumptions"), 2.0);
     EXPECT_EQ(counts.get("statements.said_twice"), 1.0);
     EXPECT_EQ(counts.get("statements.not_modelled"), 1.0);
+}
+
+TEST(Hanging, NamesTheStatementsOfEachTurn) {
+    const auto claim = [](const char* id, std::vector<std::string> hangs_on) {
+        return report::Claim{.id = id, .hangs_on = std::move(hangs_on)};
+    };
+    const auto all =
+        hanging({claim("a", {"`x` 20 % less: 1"}),
+                 claim("b", {"`y` 20 % more: no", "`x` 20 % less: 2"}), claim("c", {})});
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].first, "`x` 20 % less");
+    EXPECT_EQ(all[0].second, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(all[1].second, std::vector<std::string>{"b"});
 }
 
 TEST(PageText, IsThatOfTheParts) {

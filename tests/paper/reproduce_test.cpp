@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../apps/program.hpp"
+#include "limpet/paper/flights.hpp"
+#include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -20,7 +23,7 @@ int shell(const std::string& command) {
 }
 
 void expect_no_blanks(const Json& claims, const fs::path& page) {
-    int reproduced = 0;
+    int reproduced = 0, hanging = 0;
     for (const Json& claim : claims) {
         for (const char* key :
              {"id", "section", "statement", "paper", "simulated", "difference", "verdict"}) {
@@ -29,16 +32,18 @@ void expect_no_blanks(const Json& claims, const fs::path& page) {
         }
         EXPECT_NE(claim["simulated"], "did not come to pass") << claim;
         reproduced += claim["verdict"] == "reproduced" ? 1 : 0;
+        hanging += claim["verdict"] == "hangs on assumptions" ? 1 : 0;
         EXPECT_TRUE(claim["recording"].is_null() || fs::exists(page / claim["recording"])) << claim;
     }
     EXPECT_GT(claims.size(), 100U);
-    EXPECT_GT(reproduced, 80);
+    EXPECT_GT(reproduced + hanging, 80);
+    EXPECT_GT(reproduced, 60);
 }
 
-std::vector<std::string> differing(const Json& claims) {
+std::vector<std::string> with_verdict(const Json& claims, const char* verdict) {
     std::vector<std::string> ids;
     for (const Json& claim : claims) {
-        if (claim["verdict"] == "differs") {
+        if (claim["verdict"] == verdict) {
             ids.push_back(claim["id"]);
         }
     }
@@ -65,10 +70,15 @@ TEST(Reproduce, QuickWritesAWholePage) {
     const Json json = Json::parse(text_of(page / "results.json"));
     expect_no_blanks(json["claims"], page);
     expect_figures(json["figures"], page);
-    // What is known to differ; one more is news, one less too. The swing on concrete: 0.46 deg more
-    // in the median of 200 missions, whatever the step; the 24 of --quick once came above 0.5.
-    EXPECT_EQ(differing(json["claims"]), (std::vector<std::string>{"spike-later", "real-swings",
-                                                                   "metal-ripple", "aerodynamic"}));
+    // What is known to differ; one more is news, one less too.
+    EXPECT_EQ(with_verdict(json["claims"], "differs"),
+              (std::vector<std::string>{"spike-later", "metal-ripple", "aerodynamic"}));
+    // With a shorter arm a propeller meets the wall, a smaller cup peels off under the vehicle;
+    // how far it swings hangs on arm and motors, on concrete on the wall's air as well: 0.46 deg
+    // more in the median of 200 missions, 0.5 is accepted.
+    EXPECT_THAT(with_verdict(json["claims"], "hangs on assumptions"),
+                testing::IsSupersetOf({"legs", "cad", "whole", "stays-level", "real-swings",
+                                       "five-degrees", "grow-larger", "tuning"}));
 
     const std::string source = LIMPET_SOURCE_DIR;
     EXPECT_EQ(shell(source + "/tests/support/validate " + source +
@@ -124,6 +134,48 @@ TEST(ReproduceOnly, TheTrialsSayWhatSamplingAndAssumptionsLeaveOpen) {
     // The moved trials can be flown by themselves.
     const Finished again = bench.run({"check", "page/campaigns/fig3_damping_low/campaign.yaml"});
     EXPECT_EQ(again.exit_code, 0) << again.err;
+}
+
+/// Held against a flight that is set up by hand; and a second run takes all of it from the folder.
+TEST(ReproduceOnly, AVerdictHangsOnFlightsWithTheValueTurned) {
+    const Bench bench;
+    const std::vector<std::string> run = {"reproduce", "--quick", "--only",
+                                          "flights",   "--out",   "page"};
+    const Finished done = bench.run(run);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_NE(done.out.find("flights, assumed values turned: 0 of "), std::string::npos);
+    const fs::path page = bench.folder() / "page";
+    const Json turned = Json::parse(text_of(page / "assumptions" / "flights_turned.json"));
+    const std::string key = "vehicle.slider.damping_N_s_m";
+    const double as_it_is = scenario::load_scenario("perch_concrete").airframe.slider.damping_N_s_m;
+    int compared = 0;
+    for (const Json& one : turned["turned"]) {
+        if (one["key"] != key) {
+            continue;
+        }
+        const double to = as_it_is * (one["more"].get<bool>() ? 1.2 : 0.8);
+        const PaperFlight flight = fly_recorded({.name = "perch_concrete",
+                                                 .scenario = "perch_concrete",
+                                                 .overrides = {key + "=" + std::to_string(to)}},
+                                                bench.folder());
+        Evidence evidence;
+        measure(flight, evidence);
+        for (const char* name : {"perch_concrete.spike_N", "perch_concrete.is_released"}) {
+            EXPECT_EQ(one["evidence"][name].get<double>(), evidence.get(name)) << name << to;
+            ++compared;
+        }
+    }
+    EXPECT_EQ(compared, 4);
+    const Json claims = Json::parse(text_of(page / "results.json"))["claims"];
+    for (const Json& claim : claims) {
+        EXPECT_EQ(claim["verdict"] == "hangs on assumptions", !claim["hangs_on"].empty()) << claim;
+        EXPECT_TRUE(claim["basis"] != "measured" || claim["assumes"].empty() ||
+                    claim["turned"].get<int>() > 0)
+            << claim;
+    }
+    const Finished again = bench.run(run);
+    EXPECT_EQ(again.out.find("assumed values turned"), std::string::npos) << again.out;
+    EXPECT_EQ(Json::parse(text_of(page / "results.json"))["claims"], claims);
 }
 
 TEST(ReproduceOnly, FlightsThatWereRecordedElsewhere) {

@@ -95,6 +95,11 @@ inline report::Page sample_page() {
             claim.difference = std::string("none");
             claim.unit = "";
         }
+        if (i == 20) {
+            claim.verdict = report::Verdict::hangs_on_assumptions;
+            claim.hangs_on = {"`vehicle.slider.damping_N_s_m` 20 % less: 1.6"};
+            claim.turned = 288;
+        }
         page.claims.push_back(claim);
     }
     report::PageTable table{
