@@ -50,7 +50,7 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec,
     (void)link_.send(sensor);
     Sent& sent = sent_[sends_ % sent_.size()];
     const Sent& before = sent_[(sends_ + sent_.size() - 1) % sent_.size()];
-    sent = {.time_usec = time_usec, .at = Clock::now()};
+    sent = {.time_usec = time_usec, .at = Clock::now(), .over = {}};
     if (options_.timing == HilTiming::real_time && sends_ > 0) {
         const double meant_s = 1e-6 * static_cast<double>(time_usec - before.time_usec);
         const double took_s = duration<double>(sent.at - before.at).count();
@@ -62,6 +62,7 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec,
     if (link_.uncork() == wire::TransferStatus::done) {
         ++count_.sensors_sent;
     }
+    sent.over = Clock::now();
     ++sends_;
 }
 
@@ -120,13 +121,13 @@ HilStatus Hil::in_lockstep(const Others& others) {
     const std::uint64_t time_usec = question().time_usec;
     const Clock::time_point begin = Clock::now();
     // An answer that is there already has waited for us.
-    Clock::time_point its_turn = begin;
+    Clock::duration ours = begin - question().over;
     Clock::duration left{};
     while (answered_usec_ != time_usec) {
         if (const auto frame = link_.receive(std::min<Clock::duration>(kSlice, left))) {
             take(*frame, others);
         } else {
-            its_turn = question().at;
+            ours = {};
         }
         if (const auto over = ended()) {
             return *over;
@@ -136,7 +137,7 @@ HilStatus Hil::in_lockstep(const Others& others) {
             break;
         }
     }
-    count_.waited_s += duration<double>(Clock::now() - its_turn).count();
+    count_.waited_s += duration<double>(Clock::now() - question().at - ours).count();
     if (answered_usec_ == time_usec) {
         answered_ever_ = true;
         return HilStatus::answered;

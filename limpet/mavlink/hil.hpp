@@ -50,8 +50,8 @@ struct HilCount {
     wire::DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
     wire::DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
     /// From a step's messages handed to the kernel (which may let the autopilot run at once) to the
-    /// answer or the end of the wait; the rest of the time is the simulator's own. What it does
-    /// before it looks for the answer belongs to the wait if the answer is not there yet.
+    /// answer or the end of the wait; the rest of the time is the simulator's own. So is what it
+    /// does in between, once they have gone, if it then finds the answer there already.
     double waited_s = 0.0;
 };
 
@@ -82,7 +82,8 @@ private:
     using Clock = std::chrono::steady_clock;
     struct Sent {
         std::uint64_t time_usec = 0;
-        Clock::time_point at;
+        Clock::time_point at;    ///< when they began to go
+        Clock::time_point over;  ///< and had gone
     };
 
     /// The sensors that have just gone.
