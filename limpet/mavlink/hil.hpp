@@ -50,8 +50,8 @@ struct HilCount {
     wire::DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
     wire::DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
     /// From a step's messages handed to the kernel (which may let the autopilot run at once) to the
-    /// answer or the end of the wait; the rest of the time is the simulator's own. So is what it
-    /// does in between, once they have gone, if it then finds the answer there already.
+    /// answer or the end of the wait; the rest of the time is the simulator's own. So is the time
+    /// of a processor that it takes in between, if it then finds the answer there already.
     double waited_s = 0.0;
 };
 
@@ -82,8 +82,8 @@ private:
     using Clock = std::chrono::steady_clock;
     struct Sent {
         std::uint64_t time_usec = 0;
-        Clock::time_point at;    ///< when they began to go
-        Clock::time_point over;  ///< and had gone
+        Clock::time_point at;
+        std::chrono::nanoseconds worked{};  ///< this thread, ever, by the time that they had gone
     };
 
     /// The sensors that have just gone.
