@@ -30,12 +30,14 @@ public:
     /// Before guidance.
     /// @param time_s  of the flight; becomes the estimate's time when a new one has arrived
     [[nodiscard]] virtual Estimate estimate(double time_s) = 0;
-    /// After guidance.
-    [[nodiscard]] virtual RotorCommand control(const Readings& readings, const Setpoint& setpoint,
-                                               double time_s) = 0;
+    /// After guidance: what it is to compute its command from. It may do so while the loop goes on.
+    virtual void tell(const Readings& readings, const Setpoint& setpoint, double time_s) = 0;
+    /// Waits for the command to what it was told last. Once for each tell().
+    [[nodiscard]] virtual RotorCommand command() = 0;
     /// Why it flies no longer (a literal); nothing while it does.
     [[nodiscard]] virtual std::optional<std::string_view> failure() const = 0;
-    /// Wall time that the simulator has waited for it so far [s].
+    /// Wall time so far in which it was its turn: from what it was told to its command, as long as
+    /// the simulator, with what it did meanwhile, was not the later of the two [s].
     [[nodiscard]] virtual double waited_s() const = 0;
     /// What keeps it from flying, for people; empty when nothing does.
     [[nodiscard]] virtual std::string obstacle() const = 0;

@@ -2,7 +2,7 @@
 #include "limpet/mavlink/codec.hpp"
 
 #include <algorithm>
-#include <boost/crc.hpp>
+#include <array>
 #include <cstring>
 
 #include "limpet/core/errors.hpp"
@@ -19,6 +19,33 @@ constexpr std::size_t kHeader1_bytes = 6;
 constexpr std::size_t kFlags_bytes = 3;
 /// A gap of more sequence numbers is a sender that began anew, or datagrams out of order.
 constexpr std::uint8_t kLargestGap = 127;
+
+/// So many bytes enter a checksum in one go.
+constexpr std::size_t kAtOnce_bytes = 8;
+
+/// CRC-16/MCRF4XX: [k][byte] is what a byte leaves of itself once k more have followed.
+constexpr auto kAfter = [] {
+    constexpr std::uint32_t kPolynomial = 0x8408;  // 0x1021, its bits in the order of the wire
+    std::array<std::array<std::uint16_t, 256>, kAtOnce_bytes> after{};
+    for (std::uint32_t byte = 0; byte < 256; ++byte) {
+        std::uint32_t left = byte;
+        for (int bit = 0; bit < 8; ++bit) {
+            left = (left >> 1U) ^ ((left & 1U) != 0 ? kPolynomial : 0U);
+        }
+        after[0][byte] = static_cast<std::uint16_t>(left);
+    }
+    for (std::size_t k = 1; k < kAtOnce_bytes; ++k) {
+        for (std::size_t byte = 0; byte < 256; ++byte) {
+            const std::uint32_t left = after[k - 1][byte];
+            after[k][byte] = static_cast<std::uint16_t>((left >> 8U) ^ after[0][left & 0xFFU]);
+        }
+    }
+    return after;
+}();
+
+std::uint32_t add_byte(std::uint32_t crc, std::uint8_t byte) {
+    return (crc >> 8U) ^ kAfter[0][(crc ^ byte) & 0xFFU];
+}
 
 bool is_start(std::uint8_t byte) {
     return byte == kStart1 || byte == kStart2;
@@ -49,10 +76,19 @@ std::uint32_t id_of(const std::uint8_t* at) {
 }
 
 std::uint16_t frame_checksum(ByteView covered, std::uint8_t crc_extra) {
-    boost::crc_optimal<16, 0x1021, 0xFFFF, 0, true, true> crc;  // CRC-16/MCRF4XX
-    crc.process_bytes(covered.data() + 1, covered.size() - 1);
-    crc.process_byte(crc_extra);
-    return crc.checksum();
+    std::uint32_t crc = 0xFFFF;
+    ByteView rest = covered.subspan(1);
+    for (; rest.size() >= kAtOnce_bytes; rest = rest.subspan(kAtOnce_bytes)) {
+        crc ^= load_little_u16(rest.data());
+        crc = kAfter[7][crc & 0xFFU] ^ kAfter[6][crc >> 8U];
+        for (std::size_t k = 2; k < kAtOnce_bytes; ++k) {
+            crc ^= kAfter[7 - k][rest[k]];
+        }
+    }
+    for (const std::uint8_t byte : rest) {
+        crc = add_byte(crc, byte);
+    }
+    return static_cast<std::uint16_t>(add_byte(crc, crc_extra));
 }
 
 ByteView finish_frame(FrameBuffer& out, const MessageInfo& message, Sender& from) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 namespace limpet::mavlink {
 namespace {
@@ -24,12 +25,23 @@ constexpr milliseconds kSlowBootWait{50};
 /// It has answered earlier sensors just now: the answer to these is on its way.
 constexpr milliseconds kCatchUpWait{1000};
 
+/// By the clock of the processor: the autopilot's threads may run where this one would.
+std::chrono::nanoseconds worked() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
 }  // namespace
 
 Hil::Hil(Link& link, const HilOptions& options) : link_(link), options_(options) {}
 
 void Hil::send(const Readings& readings, std::uint64_t time_usec,
                const std::function<void()>& hand_over) {
+    if (sends_ == 0) {
+        generation_ = link_.generation();
+        began_ = Clock::now();
+    }
     if (began_anew(readings, last_)) {
         last_ = {};
     }
@@ -43,21 +55,22 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec,
     }
     const HilSensor sensor = hil_sensor(readings, last_, time_usec);
     last_ = readings;
+    (void)link_.send(sensor);
     Sent& sent = sent_[sends_ % sent_.size()];
     const Sent& before = sent_[(sends_ + sent_.size() - 1) % sent_.size()];
-    sent = {.time_usec = time_usec, .at = Clock::now()};
+    sent = {.time_usec = time_usec, .at = Clock::now(), .worked = {}};
     if (options_.timing == HilTiming::real_time && sends_ > 0) {
         const double meant_s = 1e-6 * static_cast<double>(time_usec - before.time_usec);
         const double took_s = duration<double>(sent.at - before.at).count();
         count_.send_jitter.add(std::abs(took_s - meant_s));
     }
-    (void)link_.send(sensor);
     if (hand_over) {
         hand_over();
     }
     if (link_.uncork() == wire::TransferStatus::done) {
         ++count_.sensors_sent;
     }
+    sent.worked = worked();
     ++sends_;
 }
 
@@ -112,22 +125,27 @@ HilStatus Hil::unanswered() const {
     return Clock::now() - began_ > options_.boot_limit ? HilStatus::silent : HilStatus::waiting;
 }
 
-HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
+HilStatus Hil::in_lockstep(const Others& others) {
+    const std::uint64_t time_usec = question().time_usec;
     const Clock::time_point begin = Clock::now();
-    const Clock::time_point sent = sent_[(sends_ - 1) % sent_.size()].at;
+    // An answer that is there already has waited for us.
+    Clock::duration ours = worked() - question().worked;
+    Clock::duration left{};
     while (answered_usec_ != time_usec) {
-        const Clock::duration left = begin + patience() - Clock::now();
-        if (left <= Clock::duration::zero()) {
-            break;
-        }
         if (const auto frame = link_.receive(std::min<Clock::duration>(kSlice, left))) {
             take(*frame, others);
+        } else {
+            ours = {};
         }
         if (const auto over = ended()) {
             return *over;
         }
+        left = begin + patience() - Clock::now();
+        if (left <= Clock::duration::zero()) {
+            break;
+        }
     }
-    count_.waited_s += duration<double>(Clock::now() - sent).count();
+    count_.waited_s += duration<double>(Clock::now() - question().at - ours).count();
     if (answered_usec_ == time_usec) {
         answered_ever_ = true;
         return HilStatus::answered;
@@ -139,8 +157,9 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
     return HilStatus::silent;
 }
 
-HilStatus Hil::in_real_time(std::uint64_t time_usec, const Others& others) {
-    const Clock::time_point end = sent_[(sends_ - 1) % sent_.size()].at + kRealTimeWait;
+HilStatus Hil::in_real_time(const Others& others) {
+    const std::uint64_t time_usec = question().time_usec;
+    const Clock::time_point end = question().at + kRealTimeWait;
     bool settled = false;
     for (int k = 0; k < kFramesAtOnce; ++k) {
         const auto left = settled ? Clock::duration::zero() : end - Clock::now();
@@ -165,15 +184,8 @@ HilStatus Hil::in_real_time(std::uint64_t time_usec, const Others& others) {
     return stale ? HilStatus::silent : HilStatus::answered;
 }
 
-HilStatus Hil::exchange(const Readings& readings, std::uint64_t time_usec, const Others& others,
-                        const std::function<void()>& hand_over) {
-    if (sends_ == 0) {
-        generation_ = link_.generation();
-        began_ = Clock::now();
-    }
-    send(readings, time_usec, hand_over);
-    return options_.timing == HilTiming::lockstep ? in_lockstep(time_usec, others)
-                                                  : in_real_time(time_usec, others);
+HilStatus Hil::receive(const Others& others) {
+    return options_.timing == HilTiming::lockstep ? in_lockstep(others) : in_real_time(others);
 }
 
 }  // namespace limpet::mavlink

@@ -50,7 +50,8 @@ struct HilCount {
     wire::DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
     wire::DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
     /// From a step's messages handed to the kernel (which may let the autopilot run at once) to the
-    /// answer or the end of the wait; the rest of the time is the simulator's own.
+    /// answer or the end of the wait; the rest of the time is the simulator's own. So is the time
+    /// of a processor that it takes in between, if it then finds the answer there already.
     double waited_s = 0.0;
 };
 
@@ -65,12 +66,14 @@ public:
 
     Hil(Link& link, const HilOptions& options);
 
+    /// A step's sensors. The autopilot computes from here on.
     /// @param time_usec  of the HIL_SENSOR: > 0, rising
-    /// @param others     every frame that is no HIL_ACTUATOR_CONTROLS
     /// @param hand_over  sends what else is for the autopilot, right before the sensors
-    [[nodiscard]] HilStatus exchange(const Readings& readings, std::uint64_t time_usec,
-                                     const Others& others,
-                                     const std::function<void()>& hand_over = {});
+    void send(const Readings& readings, std::uint64_t time_usec,
+              const std::function<void()>& hand_over = {});
+    /// Waits for the answer to the sensors that have just gone.
+    /// @param others  every frame that is no HIL_ACTUATOR_CONTROLS
+    [[nodiscard]] HilStatus receive(const Others& others);
 
     [[nodiscard]] const RotorCommand& command() const { return command_; }
     [[nodiscard]] const HilCount& count() const { return count_; }
@@ -80,15 +83,16 @@ private:
     struct Sent {
         std::uint64_t time_usec = 0;
         Clock::time_point at;
+        std::chrono::nanoseconds worked{};  ///< this thread, ever, by the time that they had gone
     };
 
-    void send(const Readings& readings, std::uint64_t time_usec,
-              const std::function<void()>& hand_over);
-    /// Longest wait for the answer to the sensors that have just gone, as things stand.
+    /// The sensors that have just gone.
+    [[nodiscard]] const Sent& question() const { return sent_[(sends_ - 1) % sent_.size()]; }
+    /// Longest wait for the answer to them, as things stand.
     [[nodiscard]] std::chrono::milliseconds patience() const;
     [[nodiscard]] HilStatus unanswered() const;
-    [[nodiscard]] HilStatus in_lockstep(std::uint64_t time_usec, const Others& others);
-    [[nodiscard]] HilStatus in_real_time(std::uint64_t time_usec, const Others& others);
+    [[nodiscard]] HilStatus in_lockstep(const Others& others);
+    [[nodiscard]] HilStatus in_real_time(const Others& others);
     /// @return why there is no use in listening on; nothing while there is
     [[nodiscard]] std::optional<HilStatus> ended() const;
     /// @return when the sensors of that stamp went; nullptr when none of the last ones has it

@@ -20,11 +20,24 @@ namespace {
 /// Space in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
 constexpr std::string_view kAirframe = "SYS_AUTOSTART";
-/// Of PX4's onboard link: half of what it sends.
-constexpr std::uint32_t kHighresImuId = 105;
-constexpr std::array<std::uint32_t, 5> kSaidByOdometry = {Attitude::kId, AttitudeQuaternion::kId,
-                                                          LocalPositionNed::kId,
-                                                          GlobalPositionInt::kId, kHighresImuId};
+/// Streams of PX4's onboard link, in messages.xml or not: what repeats ODOMETRY, and what else is
+/// not read here and comes five times a second or more. Source: PX4 v1.15.1, mode Onboard
+constexpr std::array<std::uint32_t, 14> kNotRead = {
+    Attitude::kId,
+    AttitudeQuaternion::kId,
+    LocalPositionNed::kId,
+    GlobalPositionInt::kId,
+    TimeSync::kId,
+    AttitudeTarget::kId,
+    PositionTargetLocalNed::kId,
+    24,   // GPS_RAW_INT
+    36,   // SERVO_OUTPUT_RAW
+    74,   // VFR_HUD
+    105,  // HIGHRES_IMU
+    141,  // ALTITUDE
+    290,  // ESC_INFO
+    291,  // ESC_STATUS
+};
 constexpr float kStop = -1.0F;  // an interval: never
 constexpr float kCustomMode = MavModeFlag::custom_mode_enabled;
 
@@ -284,7 +297,7 @@ void Offboard::stop_others(Link& link) {
     constexpr int kTimes = 2;
     if (options_.estimate_alone && estimate_s_ >= 0.0 && stop_requests_ < kTimes) {
         ++stop_requests_;
-        for (const std::uint32_t id : kSaidByOdometry) {
+        for (const std::uint32_t id : kNotRead) {
             send_command(link, MavCmd::set_message_interval, static_cast<float>(id), kStop);
         }
     }

@@ -167,8 +167,8 @@ void Px4Autopilot::report_differences() {
     }
 }
 
-/// Set-points and sensors out, motors back.
-void Px4Autopilot::exchange(const Setpoint& setpoint) {
+/// Set-points and sensors.
+void Px4Autopilot::send(const Setpoint& setpoint) {
     // Two wires of one autopilot: what goes in a step goes at once, and wakes it up once.
     const bool apart = &offboard_link_ != &hil_link_;
     if (options_.flies) {
@@ -182,20 +182,11 @@ void Px4Autopilot::exchange(const Setpoint& setpoint) {
             offboard_.update(offboard_link_, setpoint, clock_s());
         }
     }
-    status_ = hil_.exchange(
-        readings_, clock_usec_,
-        [this](const mavlink::Frame& frame) {
-            // Until the clocks are in step, when something is received is a matter of the machine:
-            // its greetings are left alone.
-            if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {
-                hear(frame);
-            }
-        },
-        [&] {
-            if (apart) {
-                (void)offboard_link_.uncork(kRoom);
-            }
-        });
+    hil_.send(readings_, clock_usec_, [&] {
+        if (apart) {
+            (void)offboard_link_.uncork(kRoom);
+        }
+    });
 }
 
 Mover Px4Autopilot::mover() {
@@ -211,14 +202,23 @@ Estimate Px4Autopilot::heard_estimate(double time_s) const {
     return estimate;
 }
 
-RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint,
-                                   double time_s) {
+void Px4Autopilot::tell(const Readings& readings, const Setpoint& setpoint, double time_s) {
     readings_ = readings;
     readings_.motion_capture =
         awaits_origin() ? Sample<PoseReading>()
                         : watch_.trusted(readings.motion_capture, heard_estimate(time_s), mover());
     clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
-    exchange(setpoint);
+    send(setpoint);
+}
+
+RotorCommand Px4Autopilot::command() {
+    status_ = hil_.receive([this](const mavlink::Frame& frame) {
+        // Until the clocks are in step, when something is received is a matter of the machine: its
+        // greetings are left alone.
+        if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {
+            hear(frame);
+        }
+    });
     switch (status_) {
         case mavlink::HilStatus::waiting:
         case mavlink::HilStatus::answered: break;

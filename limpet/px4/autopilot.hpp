@@ -42,8 +42,8 @@ public:
     Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Options options);
 
     [[nodiscard]] Estimate estimate(double time_s) override;
-    [[nodiscard]] RotorCommand control(const Readings& readings, const Setpoint& setpoint,
-                                       double time_s) override;
+    void tell(const Readings& readings, const Setpoint& setpoint, double time_s) override;
+    [[nodiscard]] RotorCommand command() override;
     [[nodiscard]] std::optional<std::string_view> failure() const override { return failure_; }
     [[nodiscard]] double waited_s() const override { return hil_.count().waited_s + listening_s_; }
     [[nodiscard]] std::string obstacle() const override;
@@ -58,7 +58,7 @@ private:
     void listen();
     [[nodiscard]] Mover mover();
     [[nodiscard]] Estimate heard_estimate(double time_s) const;
-    void exchange(const Setpoint& setpoint);
+    void send(const Setpoint& setpoint);
     void look_who();
     void report_differences();
     [[nodiscard]] bool in_step() const;

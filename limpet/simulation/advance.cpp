@@ -97,9 +97,9 @@ Vector3 air_W_m_s(const FlightModel& model, const FlightState& state) {
     return wind_W_m_s;
 }
 
-AirLoad load_of_air(const FlightModel& model, const FlightState& state,
-                    const RotorList<double>& speeds_rad_s) {
+AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
+    const RotorList<double>& speeds_rad_s = state.rotors.speed_rad_s;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const faults::Acting& acting = state.faults.now;
@@ -183,13 +183,12 @@ void see_gap(const FlightModel& model, Truth& truth) {
 
 LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, FlightState& state,
                                                   plant::Plant& plant, const Stride& stride,
-                                                  const RotorList<double>& speeds_rad_s,
                                                   TickReport& report, ExternalCup* external_cup) {
     const bool has_cup = model.airframe.has_cup;
     const plant::StepMode mode{.step_s = stride.step_s(),
                                .contacts = stride.contacts,
                                .legs_lost = state.faults.now.legs_lost};
-    const AirLoad air = load_of_air(model, state, speeds_rad_s);
+    const AirLoad air = load_of_air(model, state);
     for (int k = 0; k < stride.steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;
         if (k > 0) {

@@ -8,13 +8,11 @@
 
 namespace limpet::simulation {
 
-/// A stride of rigid-body truth: rotors and cup push, the plant moves.
-/// @param speeds_rad_s  with which the rotors push
+/// A stride of rigid-body truth: rotors, as they turn, and cup push, the plant moves.
 /// @param report        what the steps saw is added
 /// @param external_cup  nullptr: ours
 void advance(const FlightModel& model, FlightState& state, plant::Plant& plant,
-             const Stride& stride, const RotorList<double>& speeds_rad_s, TickReport& report,
-             ExternalCup* external_cup = nullptr);
+             const Stride& stride, TickReport& report, ExternalCup* external_cup = nullptr);
 
 /// Where base and cup are now.
 void see_motion(const FlightModel& model, Truth& truth, const plant::Plant& plant);

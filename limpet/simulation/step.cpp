@@ -87,17 +87,45 @@ void guide(const FlightModel& model, FlightState& state, guidance::EventList& ev
     }
 }
 
+/// What reaches the autopilot over its link.
+const Setpoint& setpoint_told(const FlightState& state) {
+    return state.faults.now.link_lost ? state.faults.through : state.guidance.setpoint;
+}
+
 RotorCommand control(const FlightModel& model, FlightState& state,
                      autopilot::ExternalAutopilot* external) {
-    const double time_s = seconds(state.tick);
-    const Setpoint& setpoint = state.faults.now.link_lost ? state.faults.through  //
-                                                          : state.guidance.setpoint;
     if (external == nullptr) {
-        return autopilot::control(model.autopilot, state.autopilot, setpoint, time_s);
+        return autopilot::control(model.autopilot, state.autopilot, setpoint_told(state),
+                                  seconds(state.tick));
     }
-    RotorCommand rotors = external->control(state.sensors.readings, setpoint, time_s);
+    RotorCommand rotors = external->command();
     rotors.command.resize(model.airframe.rotors.size());
     return rotors;
+}
+
+/// The rotors follow their commands, at the battery's cost.
+void drive(const FlightModel& model, FlightState& state, bool pump_ran, const Stride& stride) {
+    const vehicle::AirframeNumbers& airframe = model.airframe;
+    const faults::Acting& acting = state.faults.now;
+    vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
+                  {.battery_share = vehicle::drive_share(airframe, state.battery.voltage_V),
+                   .speed_share = acting.rotors_hit ? &acting.speed_share : nullptr},
+                  stride.ticks);
+    if (acting.charge_at_most < 1.0) {
+        vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
+    }
+    vehicle::step(airframe.battery, state.battery,
+                  vehicle::mechanical_power_W(airframe.rotor, state.rotors), pump_ran,
+                  state.command.armed, stride.ticks * kTick_s);
+}
+
+void move(const FlightModel& model, FlightState& state, plant::Plant& plant, const Stride& stride,
+          TickReport& report, const Outside& outside) {
+    for (int tick = 0; tick < stride.ticks; ++tick) {
+        vehicle::step(model.wind, state.wind);
+        vehicle::step(model.wall_air, state.wall_air);
+    }
+    advance(model, state, plant, stride, report, outside.cup);
 }
 
 }  // namespace
@@ -105,7 +133,6 @@ RotorCommand control(const FlightModel& model, FlightState& state,
 LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightState& state,
                                                plant::Plant& plant, TickReport& report,
                                                const Outside& outside) {
-    const vehicle::AirframeNumbers& airframe = model.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);
     report.restart();
@@ -130,30 +157,23 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
     } else if (due(state.tick, model.guidance_rate_Hz)) {
         guide(model, state, events);
     }
-    if (controls) {
-        state.command = control(model, state, outside.autopilot);
+    if (controls && outside.autopilot != nullptr) {
+        outside.autopilot->tell(readings, setpoint_told(state), time_s);
     }
     const Stride stride =
         outside.wants_every_tick() ? one_tick(model, state) : next_stride(model, state);
-    // Over a tick the rotors push as they turn at its end. In a longer step the bodies' rates are
-    // those of its middle: a force must be that of its beginning, or it comes half a step too soon.
-    const RotorList<double> before_rad_s = state.rotors.speed_rad_s;
-    vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
-                  {.battery_share = vehicle::drive_share(airframe, state.battery.voltage_V),
-                   .speed_share = acting.rotors_hit ? &acting.speed_share : nullptr},
-                  stride.ticks);
-    if (acting.charge_at_most < 1.0) {
-        vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
+    const bool pump_ran = state.cup.status.pump_running;
+    // Where the command does not push yet, the bodies move while who is told computes it.
+    if (stride.pushed_at_its_start()) {
+        move(model, state, plant, stride, report, outside);
     }
-    vehicle::step(airframe.battery, state.battery,
-                  vehicle::mechanical_power_W(airframe.rotor, state.rotors),
-                  state.cup.status.pump_running, state.command.armed, stride.ticks * kTick_s);
-    for (int tick = 0; tick < stride.ticks; ++tick) {
-        vehicle::step(model.wind, state.wind);
-        vehicle::step(model.wall_air, state.wall_air);
+    if (controls) {
+        state.command = control(model, state, outside.autopilot);
     }
-    advance(model, state, plant, stride, stride.ticks > 1 ? before_rad_s : state.rotors.speed_rad_s,
-            report, outside.cup);
+    drive(model, state, pump_ran, stride);
+    if (!stride.pushed_at_its_start()) {
+        move(model, state, plant, stride, report, outside);
+    }
 
     state.tick += stride.ticks;
     see_truth(model, state, plant);

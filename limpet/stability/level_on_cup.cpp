@@ -78,12 +78,15 @@ void LevelOnCup::period() {
     simulation::Stride stride = one_tick(*model_, state_);
     stride.ticks = ticks_a_stride_;
     for (int left = ticks_; left > 0; left -= stride.ticks) {
-        const RotorList<double> before_rad_s = state_.rotors.speed_rad_s;
+        state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
+        if (stride.pushed_at_its_start()) {
+            advance(*model_, state_, plant_, stride, report);
+        }
         step(model_->airframe.rotor, model_->rotor_lag, state_.rotors, state_.command,
              {.battery_share = vehicle::hover_drive_share(model_->airframe)}, stride.ticks);
-        state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
-        advance(*model_, state_, plant_, stride,
-                stride.ticks > 1 ? before_rad_s : state_.rotors.speed_rad_s, report);
+        if (!stride.pushed_at_its_start()) {
+            advance(*model_, state_, plant_, stride, report);
+        }
         state_.tick += stride.ticks;
         see_motion(*model_, state_.truth, plant_);
     }

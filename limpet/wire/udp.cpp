@@ -5,6 +5,7 @@
 #include <array>
 #include <boost/asio/ip/multicast.hpp>
 #include <boost/asio/ip/udp.hpp>
+#include <optional>
 
 #include "limpet/wire/stream_transport.hpp"
 
@@ -77,18 +78,19 @@ public:
             return {TransferStatus::closed, 0};
         }
         const Deadline deadline(timeout);
-        int strangers = 0;
-        do {
-            const std::size_t length = take(into, MSG_TRUNC);
-            if (length == 0) {  // nothing there yet, an empty datagram, or a stranger's
-                if (++strangers >= kMostStrangers && deadline.passed()) {
-                    break;
-                }
-                continue;
+        int others = 0;  // empty datagrams, strangers', and errors of earlier ones
+        for (;;) {
+            const std::optional<std::size_t> length = take(into, MSG_TRUNC);
+            if (length.value_or(0) > 0) {
+                return {TransferStatus::done, std::min(*length, into.size())};
             }
-            return {TransferStatus::done, std::min(length, into.size())};
-        } while (wait(POLLIN, deadline));
-        return {TransferStatus::timed_out, 0};
+            // Who drains it at every step is not charged for a wait that has no time.
+            const bool over = length ? ++others >= kMostStrangers && deadline.passed()
+                                     : deadline.passed() || !wait(POLLIN, deadline);
+            if (over) {
+                return {TransferStatus::timed_out, 0};
+            }
+        }
     }
 
     bool wait_for_peer(nanoseconds timeout) override {
@@ -169,12 +171,16 @@ private:
         socket_.bind(udp::endpoint(group() ? interface() : address_v4::any(), 0));
     }
 
-    /// @return length of the datagram, which may be longer than `into`; 0 if there was none
-    std::size_t take(std::span<std::byte> into, int flags) {
+    /// @return length of the datagram, which may be longer than `into`; 0: not one for us; nullopt:
+    ///         none is there
+    std::optional<std::size_t> take(std::span<std::byte> into, int flags) {
         udp::endpoint from;
         error_code error;
         const std::size_t length =
             socket_.receive_from(boost::asio::buffer(into.data(), into.size()), from, flags, error);
+        if (error == boost::asio::error::would_block) {
+            return std::nullopt;
+        }
         if (error) {  // also "refused" by the host of an earlier datagram
             return 0;
         }

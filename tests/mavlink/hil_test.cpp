@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <ctime>
+
 #include "scripted_wire.hpp"
 
 namespace limpet::mavlink {
@@ -29,6 +31,12 @@ HilActuatorControls controls(std::uint64_t time_usec, float first, bool armed = 
 
 const Hil::Others kNobody = [](const Frame&) {};
 
+HilStatus exchange(Hil& hil, const Readings& readings, std::uint64_t time_usec,
+                   const Hil::Others& others) {
+    hil.send(readings, time_usec);
+    return hil.receive(others);
+}
+
 /// An autopilot that answers the sensors that it is sent, from the `first`-th on.
 void answer(ScriptedLink& wire, int first) {
     auto seen = std::make_shared<int>(0);
@@ -47,13 +55,42 @@ TEST(HilLockstep, WaitsForTheAnswerToItsOwnSensors) {
     ScriptedLink wire;
     answer(wire, 1);
     Hil hil(wire.link, {});
-    EXPECT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, at(0.0), 4000, kNobody), HilStatus::answered);
     EXPECT_TRUE(hil.command().armed);
     EXPECT_DOUBLE_EQ(hil.command().command[0], 0.5);
-    EXPECT_EQ(hil.exchange(at(0.004), 8000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, at(0.004), 8000, kNobody), HilStatus::answered);
     EXPECT_THAT(hil.count().answers, Eq(2U));
     EXPECT_THAT(hil.count().unanswered, Eq(0U));
     EXPECT_THAT(hil.count().round_trip.count(), Eq(2U));
+}
+
+/// So much time of a processor.
+void work(double how_long_s) {
+    const std::clock_t begin = std::clock();
+    while (static_cast<double>(std::clock() - begin) < how_long_s * CLOCKS_PER_SEC) {
+    }
+}
+
+/// What the simulator does meanwhile is its own time only where the answer waits for it.
+TEST(HilLockstep, TheWaitIsTheAutopilotsUnlessItHasAnsweredAlready) {
+    constexpr double kMeanwhile_s = 0.05;
+    ScriptedLink wire;
+    answer(wire, 1);
+    Hil hil(wire.link, {});
+    const auto begin = std::chrono::steady_clock::now();
+    hil.send(at(0.0), 4000);
+    work(kMeanwhile_s);
+    EXPECT_EQ(hil.receive(kNobody), HilStatus::answered);
+    const double all_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double ready_s = hil.count().waited_s;
+    EXPECT_LT(ready_s, all_s - 0.9 * kMeanwhile_s);
+    wire.ends->on_send = nullptr;
+    wire.ends->on_empty = [&wire] { wire.say(controls(8000, 0.5F)); };
+    hil.send(at(0.004), 8000);
+    work(kMeanwhile_s);
+    EXPECT_EQ(hil.receive(kNobody), HilStatus::answered);
+    EXPECT_GE(hil.count().waited_s - ready_s, 0.9 * kMeanwhile_s);
 }
 
 TEST(HilLockstep, BootsWithoutAnAnswerButMissesNoneLater) {
@@ -61,18 +98,18 @@ TEST(HilLockstep, BootsWithoutAnAnswerButMissesNoneLater) {
     answer(wire, 25);
     Hil hil(wire.link, {.answer_limit = std::chrono::milliseconds(20)});
     for (std::uint64_t k = 1; k < 25; ++k) {
-        ASSERT_EQ(hil.exchange(at(0.0), 4000 * k, kNobody), HilStatus::waiting) << k;
+        ASSERT_EQ(exchange(hil, at(0.0), 4000 * k, kNobody), HilStatus::waiting) << k;
     }
-    EXPECT_EQ(hil.exchange(at(0.0), 100'000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, at(0.0), 100'000, kNobody), HilStatus::answered);
     wire.ends->on_send = nullptr;
-    EXPECT_EQ(hil.exchange(at(0.0), 104'000, kNobody), HilStatus::silent);
+    EXPECT_EQ(exchange(hil, at(0.0), 104'000, kNobody), HilStatus::silent);
     EXPECT_THAT(hil.count().unanswered, Eq(1U));
 }
 
 TEST(HilLockstep, AnAnswerThatComesLateBeginsTheLockstep) {
     ScriptedLink wire;
     Hil hil(wire.link, {});
-    ASSERT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::waiting);
+    ASSERT_EQ(exchange(hil, at(0.0), 4000, kNobody), HilStatus::waiting);
     wire.say(controls(4000, 0.0F, false));  // a slow one, behind by a step
     const auto begin = std::chrono::steady_clock::now();
     wire.ends->on_empty = [&wire, begin, said = false]() mutable {
@@ -82,14 +119,14 @@ TEST(HilLockstep, AnAnswerThatComesLateBeginsTheLockstep) {
             said = true;
         }
     };
-    EXPECT_EQ(hil.exchange(at(0.004), 8000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, at(0.004), 8000, kNobody), HilStatus::answered);
     EXPECT_DOUBLE_EQ(hil.command().command[0], 0.25);
 }
 
 TEST(HilLockstep, WhoNeverAnswersIsGivenUp) {
     ScriptedLink wire;
     Hil hil(wire.link, {.boot_limit = std::chrono::seconds(0)});
-    EXPECT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::silent);
+    EXPECT_EQ(exchange(hil, at(0.0), 4000, kNobody), HilStatus::silent);
 }
 
 /// Neither may a board that is silent be waited for without an end.
@@ -102,7 +139,7 @@ TEST(HilRealTime, WhoNeverAnswersIsGivenUp) {
     const auto waited = [&begin] { return std::chrono::steady_clock::now() - begin; };
     for (std::uint64_t k = 1; status == HilStatus::waiting && waited() < std::chrono::seconds(20);
          ++k) {
-        status = hil.exchange(at(0.0), 4000 * k, kNobody);
+        status = exchange(hil, at(0.0), 4000 * k, kNobody);
     }
     EXPECT_EQ(status, HilStatus::silent);
     EXPECT_GE(waited(), std::chrono::milliseconds(30));
@@ -113,7 +150,7 @@ TEST(HilLockstep, ASlowBootIsNotLeftFarBehind) {
     Hil hil(wire.link, {});
     const auto begin = std::chrono::steady_clock::now();
     for (std::uint64_t k = 1; k <= 70; ++k) {
-        ASSERT_EQ(hil.exchange(at(0.0), 4000 * k, kNobody), HilStatus::waiting) << k;
+        ASSERT_EQ(exchange(hil, at(0.0), 4000 * k, kNobody), HilStatus::waiting) << k;
     }
     EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1000));
 }
@@ -123,7 +160,7 @@ TEST(HilLockstep, AnAnswerToOtherSensorsIsAStray) {
     answer(wire, 1);
     wire.say(controls(123, 0.9F));
     Hil hil(wire.link, {});
-    EXPECT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, at(0.0), 4000, kNobody), HilStatus::answered);
     EXPECT_DOUBLE_EQ(hil.command().command[0], 0.5);
     EXPECT_THAT(hil.count().strays, Eq(1U));
 }
@@ -135,9 +172,9 @@ TEST(HilLockstep, GpsAndPoseGoBeforeTheSensorsAndOnlyWhenNew) {
     Readings readings = at(0.0);
     readings.gps.time_s = 0.0;
     readings.motion_capture.time_s = 0.0;
-    EXPECT_EQ(hil.exchange(readings, 4000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, readings, 4000, kNobody), HilStatus::answered);
     readings.imu.time_s = 0.004;
-    EXPECT_EQ(hil.exchange(readings, 8000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, readings, 8000, kNobody), HilStatus::answered);
     EXPECT_THAT(wire.sent<HilGps>(), SizeIs(1));
     EXPECT_THAT(wire.sent<Odometry>(), SizeIs(1));
     EXPECT_THAT(wire.sent<HilSensor>(), SizeIs(2));
@@ -159,10 +196,10 @@ TEST(HilLockstep, StampsThatStartAgainAreNewSamples) {
     Hil hil(wire.link, {});
     Readings readings = at(5.0);
     readings.motion_capture.time_s = 5.0;
-    EXPECT_EQ(hil.exchange(readings, 4000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, readings, 4000, kNobody), HilStatus::answered);
     readings = at(0.0);  // a flight begins
     readings.motion_capture.time_s = 0.0;
-    EXPECT_EQ(hil.exchange(readings, 8000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, readings, 8000, kNobody), HilStatus::answered);
     EXPECT_THAT(wire.sent<Odometry>(), SizeIs(2));
     EXPECT_EQ(wire.sent<HilSensor>()[1].fields_updated & kImuFields, kImuFields);
 }
@@ -173,7 +210,7 @@ TEST(HilLockstep, OtherMessagesGoToWhomItConcerns) {
     wire.say(Heartbeat{});
     int others = 0;
     Hil hil(wire.link, {});
-    EXPECT_EQ(hil.exchange(at(0.0), 4000, [&](const Frame&) { ++others; }), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, at(0.0), 4000, [&](const Frame&) { ++others; }), HilStatus::answered);
     EXPECT_THAT(others, Eq(1));
 }
 
@@ -182,28 +219,28 @@ TEST(HilLockstep, SeesTheLinkGoAndHearsCtrlC) {
     answer(wire, 1);
     std::atomic<bool> stop = false;
     Hil hil(wire.link, {.stop = &stop});
-    EXPECT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, at(0.0), 4000, kNobody), HilStatus::answered);
     wire.ends->on_send = [&wire](std::span<const std::byte>) {
         ++wire.ends->statistics.peers_lost;
     };
-    EXPECT_EQ(hil.exchange(at(0.0), 8000, kNobody), HilStatus::gone);
+    EXPECT_EQ(exchange(hil, at(0.0), 8000, kNobody), HilStatus::gone);
     wire.ends->statistics.peers_lost = 0;
     wire.ends->on_send = nullptr;
     stop = true;
-    EXPECT_EQ(hil.exchange(at(0.0), 12'000, kNobody), HilStatus::interrupted);
+    EXPECT_EQ(exchange(hil, at(0.0), 12'000, kNobody), HilStatus::interrupted);
 }
 
 TEST(HilRealTime, FliesOnTheLastAnswerUntilItIsStale) {
     ScriptedLink wire;
     Hil hil(wire.link, {.timing = HilTiming::real_time, .stale_limit_s = 0.02});
-    EXPECT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::waiting);
+    EXPECT_EQ(exchange(hil, at(0.0), 4000, kNobody), HilStatus::waiting);
     wire.say(controls(999'999, 0.7F));  // a board stamps with its own clock
-    EXPECT_EQ(hil.exchange(at(0.004), 8000, kNobody), HilStatus::answered);
+    EXPECT_EQ(exchange(hil, at(0.004), 8000, kNobody), HilStatus::answered);
     EXPECT_NEAR(hil.command().command[0], 0.7, 1e-6);
     const auto begin = std::chrono::steady_clock::now();
     while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(25)) {
     }
-    EXPECT_EQ(hil.exchange(at(0.008), 12'000, kNobody), HilStatus::silent);
+    EXPECT_EQ(exchange(hil, at(0.008), 12'000, kNobody), HilStatus::silent);
     EXPECT_THAT(hil.count().send_jitter.count(), Eq(2U));
 }
 

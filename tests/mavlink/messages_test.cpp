@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/crc.hpp>
+#include <random>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "limpet/mavlink/translate.hpp"
 #include "message_table.hpp"
@@ -42,6 +45,19 @@ TEST(FrameChecksum, HasTheCheckValueOfItsCrc) {  // CRC-16/MCRF4XX of 123456789
     constexpr std::array<std::uint8_t, 9> kBytes = {kStart2, '1', '2', '3', '4',
                                                     '5',     '6', '7', '8'};
     EXPECT_EQ(frame_checksum(kBytes, '9'), 0x6F91);
+}
+
+TEST(FrameChecksum, IsThatOfBoostAtEveryLength) {
+    std::mt19937 random(16);  // NOLINT: the same bytes each time
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t length = 1; length <= 280; ++length) {
+        bytes.push_back(static_cast<std::uint8_t>(random()));
+        const auto extra = static_cast<std::uint8_t>(random());
+        boost::crc_optimal<16, 0x1021, 0xFFFF, 0, true, true> crc;
+        crc.process_bytes(bytes.data() + 1, bytes.size() - 1);
+        crc.process_byte(extra);
+        ASSERT_EQ(frame_checksum(bytes, extra), crc.checksum()) << length;
+    }
 }
 
 TEST(Messages, LieOnTheWireAsInTheTable) {

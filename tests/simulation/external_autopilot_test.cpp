@@ -38,10 +38,10 @@ public:
         estimate.valid = started_ && estimate.valid;
         return estimate;
     }
-    RotorCommand control(const Readings& readings, const Setpoint& setpoint, double) override {
+    void tell(const Readings& readings, const Setpoint& setpoint, double) override {
         clock_s_ += 0.004;
         if (clock_s_ < boot_s_ || !readings.motion_capture.ever()) {
-            return {};
+            return;
         }
         Readings mine = readings;
         shift(mine);
@@ -59,10 +59,10 @@ public:
         if (auto* position = std::get_if<PositionSetpoint>(&mine_too.motion)) {
             position->p_W_m -= off_now_m();
         }
-        const RotorCommand command = limpet::autopilot::control(model_, state_, mine_too, clock_s_);
-        armed_s_ += command.armed ? 0.004 : 0.0;
-        return command;
+        command_ = limpet::autopilot::control(model_, state_, mine_too, clock_s_);
+        armed_s_ += command_.armed ? 0.004 : 0.0;
     }
+    RotorCommand command() override { return command_; }
     std::optional<std::string_view> failure() const override {
         return armed_s_ > fail_after_s_ ? std::optional<std::string_view>("as told") : std::nullopt;
     }
@@ -84,6 +84,7 @@ private:
 
     autopilot::AutopilotModel model_;
     autopilot::AutopilotState state_;
+    RotorCommand command_;
     double boot_s_;
     double clock_s_ = 0.0;
     double armed_s_ = 0.0;
@@ -91,6 +92,56 @@ private:
     Vector3 off_m_ = Vector3::Zero();
     bool started_ = false;
 };
+
+/// Looks at the flight when it is told something and when its command is asked for.
+class Onlooker final : public autopilot::ExternalAutopilot {
+public:
+    explicit Onlooker(Outsider& inner) : inner_(inner) {}
+
+    void look_at(const Flight& flight) { flight_ = &flight; }
+    [[nodiscard]] int told() const { return told_; }
+    [[nodiscard]] int moved_meanwhile() const { return moved_; }
+
+    Estimate estimate(double time_s) override { return inner_.estimate(time_s); }
+    void tell(const Readings& readings, const Setpoint& setpoint, double time_s) override {
+        inner_.tell(readings, setpoint, time_s);
+        thrust_N_ = now_N();
+    }
+    RotorCommand command() override {
+        told_ += flight_ != nullptr;
+        moved_ += flight_ != nullptr && now_N() != thrust_N_;
+        return inner_.command();
+    }
+    std::optional<std::string_view> failure() const override { return inner_.failure(); }
+    double waited_s() const override { return 0.0; }
+    std::string obstacle() const override { return inner_.obstacle(); }
+
+private:
+    [[nodiscard]] double now_N() const {
+        return flight_ != nullptr ? flight_->state().truth.thrust_N : 0.0;
+    }
+
+    Outsider& inner_;
+    const Flight* flight_ = nullptr;
+    double thrust_N_ = 0.0;
+    int told_ = 0;
+    int moved_ = 0;
+};
+
+/// In a stride whose forces are those of its start, the command has no part in the motion.
+TEST(ExternalAutopilot, TheBodiesMoveWhileItComputes) {
+    const auto model = model_of("hover");
+    Outsider outsider(*model);
+    Onlooker onlooker(outsider);
+    const Outside outside{.autopilot = &onlooker};
+    Flight flight(model, bring_up(*model, outside, {}), outside);
+    onlooker.look_at(flight);
+    while (flight.state().tick < kTicksPerSecond) {
+        flight.tick();
+    }
+    EXPECT_EQ(onlooker.told(), 250);
+    EXPECT_GT(onlooker.moved_meanwhile(), 200);
+}
 
 TEST(BringUp, BeginsTheFlightInHoverAtTheStartWithAllClocksAtZero) {
     const auto model = model_of("perch_concrete");

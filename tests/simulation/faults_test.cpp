@@ -93,12 +93,11 @@ TEST(FaultsInTheLoop, APayloadThatShiftsTurnsByItsMoment) {
         plant->set_pose(Vector3::Zero(), Quaternion::Identity());
         see_motion(*model, state.truth, *plant);
         state.faults.now.*shift = kShift_kg_m;
-        RotorList<double> still = state.rotors.speed_rad_s;
-        std::fill(still.begin(), still.end(), 0.0);
+        std::fill(state.rotors.speed_rad_s.begin(), state.rotors.speed_rad_s.end(), 0.0);
         TickReport report;
         while (seconds(state.tick) < kFor_s) {
             const Stride stride = one_tick(*model, state);
-            advance(*model, state, *plant, stride, still, report);
+            advance(*model, state, *plant, stride, report);
             state.tick += stride.ticks;
             see_motion(*model, state.truth, *plant);
         }

@@ -60,13 +60,12 @@ TEST(PayloadInTheLoop, MomentumOfBothIsWhatTheirWeightGives) {
         FlightState& state = both.state;
         state.truth.payload.v_W_m_s = Vector3(2.0, 1.0, 3.0);
         const Vector3 at_first = both.momentum();
-        RotorList<double> still = state.rotors.speed_rad_s;
-        std::fill(still.begin(), still.end(), 0.0);
+        std::fill(state.rotors.speed_rad_s.begin(), state.rotors.speed_rad_s.end(), 0.0);
         TickReport report;
         double most_N = 0.0;
         while (state.tick < kTicksPerSecond) {
             const Stride stride = one_tick(*both.model, state);
-            advance(*both.model, state, *both.plant, stride, still, report);
+            advance(*both.model, state, *both.plant, stride, report);
             state.tick += stride.ticks;
             see_motion(*both.model, state.truth, *both.plant);
             most_N = std::max(most_N, state.truth.payload.tension_N);
@@ -172,12 +171,11 @@ TEST(PayloadInTheLoop, AFallingVehicleAndItsPayloadDoNotKnowOfASwell) {
         }
         Bodies both(changes);
         both.state.truth.payload.v_W_m_s.y() = 1.0;
-        RotorList<double> still = both.state.rotors.speed_rad_s;
-        std::fill(still.begin(), still.end(), 0.0);
+        std::fill(both.state.rotors.speed_rad_s.begin(), both.state.rotors.speed_rad_s.end(), 0.0);
         TickReport report;
         while (both.state.tick < kTicksPerSecond) {
             const Stride stride = one_tick(*both.model, both.state);
-            advance(*both.model, both.state, *both.plant, stride, still, report);
+            advance(*both.model, both.state, *both.plant, stride, report);
             both.state.tick += stride.ticks;
             see_motion(*both.model, both.state.truth, *both.plant);
         }

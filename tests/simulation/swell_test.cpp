@@ -22,12 +22,11 @@ Truth fallen(const std::string& engine, bool sea) {
     const auto model = model_of("perch_concrete", changes);
     const auto plant = model->plant->make();
     FlightState state = start(*model, *plant);
-    RotorList<double> still = state.rotors.speed_rad_s;
-    std::fill(still.begin(), still.end(), 0.0);
+    std::fill(state.rotors.speed_rad_s.begin(), state.rotors.speed_rad_s.end(), 0.0);
     TickReport report;
     while (state.tick < kTicksPerSecond) {
         const Stride stride = one_tick(*model, state);
-        advance(*model, state, *plant, stride, still, report);
+        advance(*model, state, *plant, stride, report);
         state.tick += stride.ticks;
         see_motion(*model, state.truth, *plant);
     }

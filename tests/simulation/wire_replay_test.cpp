@@ -129,7 +129,8 @@ TEST(Px4Recording, LockstepTakesExactlyOneAnswerToEachOfItsSensors) {
     std::size_t waiting = 0;
     std::vector<bool> armed;
     for (std::size_t k = 0; k < readings.size(); ++k) {
-        const auto status = hil.exchange(readings[k], times_usec[k], [](const mavlink::Frame&) {});
+        hil.send(readings[k], times_usec[k]);
+        const auto status = hil.receive([](const mavlink::Frame&) {});
         if (status == mavlink::HilStatus::waiting) {
             ++waiting;
             continue;

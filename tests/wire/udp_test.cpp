@@ -115,6 +115,19 @@ TEST_F(UdpPair, WhoSpeaksToOneHostHearsItAlone) {
     EXPECT_EQ(heard(*there, 20ms), "<timed out>");
 }
 
+TEST_F(UdpPair, WithoutTimeToWaitWhatIsThereIsTakenAndStrangersPassedOver) {
+    EXPECT_EQ(say(*there, "mine"), wire::TransferStatus::done);
+    EXPECT_EQ(heard(*here), "mine");
+    RawSocket stranger(SOCK_DGRAM);
+    ASSERT_TRUE(stranger.connect(port));
+    stranger.say("one");
+    stranger.say("two");
+    EXPECT_EQ(say(*there, "again"), wire::TransferStatus::done);
+    EXPECT_EQ(heard(*here, 0ms), "again") << "loopback delivers within the call";
+    EXPECT_EQ(heard(*here, 0ms), "<timed out>");
+    EXPECT_EQ(here->statistics().peers_refused, 2U);
+}
+
 TEST_F(UdpPair, OneThatCallsKeepsTheFirstThatSpeaks) {
     const auto caller = wire::open_udp_between(at(0), at(port));
     EXPECT_EQ(say(*caller, "hello"), wire::TransferStatus::done);

@@ -49,11 +49,11 @@ public:
         : model_(model.autopilot), state_(state.autopilot) {}
 
     Estimate estimate(double) override { return state_.estimate; }
-    RotorCommand control(const Readings& readings, const Setpoint& setpoint,
-                         double time_s) override {
+    void tell(const Readings& readings, const Setpoint& setpoint, double time_s) override {
         autopilot::estimate(model_, state_, readings);
-        return autopilot::control(model_, state_, setpoint, time_s);
+        command_ = autopilot::control(model_, state_, setpoint, time_s);
     }
+    RotorCommand command() override { return command_; }
     [[nodiscard]] std::optional<std::string_view> failure() const override { return {}; }
     [[nodiscard]] double waited_s() const override { return 0.0; }
     [[nodiscard]] std::string obstacle() const override { return {}; }
@@ -61,6 +61,7 @@ public:
 private:
     autopilot::AutopilotModel model_;
     autopilot::AutopilotState state_;
+    RotorCommand command_;
 };
 
 /// An autopilot whose commands are pushed on their way to the rotors, and what went in and out.
@@ -82,9 +83,12 @@ public:
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
     Estimate estimate(double time_s) override { return inner_->estimate(time_s); }
-    RotorCommand control(const Readings& readings, const Setpoint& setpoint,
-                         double time_s) override {
-        RotorCommand told = inner_->control(readings, setpoint, time_s);
+    void tell(const Readings& readings, const Setpoint& setpoint, double time_s) override {
+        rate_rad_s_ = readings.imu.value.rate_B_rad_s.y();
+        inner_->tell(readings, setpoint, time_s);
+    }
+    RotorCommand command() override {
+        RotorCommand told = inner_->command();
         told.command.resize(mixer_.rotors());  // a wire has places for more
         if (!push_) {
             return told;
@@ -96,7 +100,7 @@ public:
             torque += mixer_.effect(1, at) * told.command[i];
             told.command[i] = std::clamp(told.command[i] + mixer_.pitch[at] * push, 0.0, 1.0);
         }
-        rows_.push_back({readings.imu.value.rate_B_rad_s.y(), torque});
+        rows_.push_back({rate_rad_s_, torque});
         return told;
     }
     [[nodiscard]] std::optional<std::string_view> failure() const override {
@@ -111,6 +115,7 @@ private:
     const autopilot::Mixer& mixer_;
     autopilot::ExternalAutopilot* inner_ = nullptr;
     std::function<double(double time_s)> push_;
+    double rate_rad_s_ = 0.0;  ///< told last
     std::vector<Row> rows_;
 };
 
