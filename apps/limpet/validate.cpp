@@ -44,8 +44,8 @@ std::size_t points_of(const Measurement& row) {
 
 void print_row(const ValidateOptions& options, const Measurement& row, const Comparison& found) {
     fmt::print("  {:<27} {:>6}  {:>7.3g}  {:>7.3g}  {:>7}  {:>7}  {:<7}  {}\n", row.id,
-               points_of(row), found.rms, found.largest, or_dash(row.scatter, "{:.2g}"),
-               or_dash(found.p, "{:.2f}"), to_string(found.verdict), fitted_text(row, found));
+               points_of(row), found.rms, found.largest, or_dash(row.scatter, "{:.3g}"),
+               or_dash(found.p, "{:.2g}"), to_string(found.verdict), fitted_text(row, found));
     if (options.notes) {
         fmt::print("      {} [{}]\n      {}\n", row.what, row.unit, row.source);
         fmt::print("      scatter {}: {}\n", or_dash(row.scatter, "{:g}"), row.scatter_of);
