@@ -124,8 +124,7 @@ void print_json(const measured::Measurements& all, const std::vector<Comparison>
 
 OptionList options_of(ValidateOptions& options) {
     return {{"folder FOLDER", &options.folder,
-             "of measurements of your own, in files like those of data/others; without it those",
-             optional()},
+             "measurements of your own, in files like those of data/others", optional()},
             {"--notes", &options.notes,
              "of each row what was measured by whom, and why it differs; what was\n"
              "looked at and not used"},
@@ -146,8 +145,7 @@ void validate(const ValidateOptions& options) {
 
 Verb validate_verb() {
     return verb<ValidateOptions>(
-        "validate", "Hold what others measured against the models, with nothing turned for it",
-        options_of, validate,
+        "validate", "Hold what others measured against the models", options_of, validate,
         "rms and largest: of model less measured, in the unit of the row; scatter: of the\n"
         "measurement itself, a standard deviation; p: that scatter alone makes such errors.\n"
         "holds: p is 0.01 or more. differs: it is less. open: no scatter is known, or one so\n"
