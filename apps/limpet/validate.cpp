@@ -44,8 +44,8 @@ std::size_t points_of(const Measurement& row) {
 
 void print_row(const ValidateOptions& options, const Measurement& row, const Comparison& found) {
     fmt::print("  {:<27} {:>6}  {:>7.3g}  {:>7.3g}  {:>7}  {:>7}  {:<7}  {}\n", row.id,
-               points_of(row), found.rms, found.largest, or_dash(row.scatter, "{:.2g}"),
-               or_dash(found.p, "{:.2f}"), to_string(found.verdict), fitted_text(row, found));
+               points_of(row), found.rms, found.largest, or_dash(row.scatter, "{:.3g}"),
+               or_dash(found.p, "{:.2g}"), to_string(found.verdict), fitted_text(row, found));
     if (options.notes) {
         fmt::print("      {} [{}]\n      {}\n", row.what, row.unit, row.source);
         fmt::print("      scatter {}: {}\n", or_dash(row.scatter, "{:g}"), row.scatter_of);
@@ -124,8 +124,7 @@ void print_json(const measured::Measurements& all, const std::vector<Comparison>
 
 OptionList options_of(ValidateOptions& options) {
     return {{"folder FOLDER", &options.folder,
-             "of measurements of your own, in files like those of data/others; without it those",
-             optional()},
+             "measurements of your own, in files like those of data/others", optional()},
             {"--notes", &options.notes,
              "of each row what was measured by whom, and why it differs; what was\n"
              "looked at and not used"},
@@ -146,8 +145,7 @@ void validate(const ValidateOptions& options) {
 
 Verb validate_verb() {
     return verb<ValidateOptions>(
-        "validate", "Hold what others measured against the models, with nothing turned for it",
-        options_of, validate,
+        "validate", "Hold what others measured against the models", options_of, validate,
         "rms and largest: of model less measured, in the unit of the row; scatter: of the\n"
         "measurement itself, a standard deviation; p: that scatter alone makes such errors.\n"
         "holds: p is 0.01 or more. differs: it is less. open: no scatter is known, or one so\n"

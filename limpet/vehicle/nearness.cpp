@@ -52,9 +52,8 @@ const ParameterTable<NearnessParameters>& nearness_table() {
          "Cheeseman, Bennett, R&M 3021; paper: its simulation has none"},
         {"ground_neighbours", "switch", 0.0, 1.0, &N::ground_neighbours,
          "with ground_effect: and more for the rotors beside them",
-         "images: Sanchez-Cuevas, Heredia, Ollero 2017, without its body; a pair of rotors lifts "
-         "so, "
-         "of rotors lifts so, a quadrotor less (limpet validate)"},
+         "images: Sanchez-Cuevas, Heredia, Ollero, doi 10.1155/2017/1823056, without its body; a "
+         "pair of rotors lifts so, a quadrotor less (limpet validate)"},
         {"ceiling_height_m", "m", 0.0, 1000.0, &N::ceiling_height_m,
          "> 0: a ceiling so far above the ground; rotors below it lift more, one that meets it "
          "ends "

@@ -35,7 +35,7 @@ TEST(ValidateVerb, PrintsARowAndTheVerdictOfEachMeasurementOfAFolder) {
     EXPECT_THAT(run.out, HasSubstr("\nair\n"));
     // by hand: 1.2 - 16/15 = 0.1333, 1.1 - 64/63 = 0.0841
     EXPECT_THAT(line_of(run.out, "  near"),
-                MatchesRegex(" +near +2 +0.111 +0.133 +0.002 +0.00 +differs +-"));
+                MatchesRegex(" +near +2 +0.111 +0.133 +0.002 +0 +differs +-"));
     EXPECT_THAT(line_of(run.out, "  far"),
                 MatchesRegex(" +far +2 +[0-9.e-]+ +[0-9.e-]+ +- +- +open +-"));
     EXPECT_THAT(run.out, HasSubstr("0 rows hold, 1 differ, 1 open; 1 sources were looked at"));

@@ -130,6 +130,23 @@ TEST(VehicleFit, SyntheticTruthsAreRecoveredInNinetyToNinetyNineOfAHundred) {
     EXPECT_LE(held, 0.99 * asked);
 }
 
+/// Motors that weaken half-way are in no number of the model: what it leaves hangs together, and
+/// the slopes of the fit alone do not see it.
+TEST(VehicleFit, AModelThatLacksSomethingHasWiderIntervals) {
+    const scenario::Scenario scenario = scenario::load_scenario("perch_concrete");
+    FlightData data = flown(scenario, 1, 12.0);
+    const VehicleFit whole = identify_vehicle(data, scenario.airframe);
+    for (std::size_t k = 0; k < data.command.size(); ++k) {
+        for (double& command : data.command[k]) {
+            command *= data.command_s[k] < 3.0 ? 1.0 : 0.7;  // it is free until 5 s
+        }
+    }
+    const VehicleFit weak = identify_vehicle(data, scenario.airframe);
+    ASSERT_TRUE(whole.inertia_kg_m2[1] && weak.inertia_kg_m2[1]);
+    EXPECT_TRUE(holds(*whole.inertia_kg_m2[1], 0.10));
+    EXPECT_GT(weak.inertia_kg_m2[1]->half_width, 4.0 * whole.inertia_kg_m2[1]->half_width);
+}
+
 /// A recording of `limpet fly` says what the flight's own sensors and commands said.
 TEST(VehicleFit, ARecordingTellsWhatItsFlightTold) {
     scenario::LoadOptions options;
