@@ -8,7 +8,7 @@
 #include "limpet/core/version.hpp"
 #include "limpet/dossier/dossier.hpp"
 #include "limpet/dossier/dossier_runs.hpp"
-#include "limpet/paper/registers.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/report/page.hpp"
 #include "limpet/scenario/data_folder.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "limpet/paper/claims.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/simulation/flight.hpp"
 

@@ -7,7 +7,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/paper/oscillation.hpp"
-#include "limpet/paper/turned.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "limpet/paper/parts.hpp"
 #include "limpet/stability/map.hpp"
 #include "limpet/statistics/shares.hpp"
 
@@ -16,7 +17,6 @@
 namespace limpet::paper {
 
 using stability::Overrides;
-struct Study;
 /// The scenarios of slow motors, and of Gazebo's.
 inline constexpr const char* kSlow = "slow_motors_metal";
 inline constexpr const char* kGazebo = "perch_metal";

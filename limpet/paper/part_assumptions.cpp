@@ -10,7 +10,7 @@
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/write_file.hpp"
-#include "limpet/paper/registers.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/core/frames.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/paper/rigs.hpp"
-#include "limpet/paper/study.hpp"
-#include "limpet/paper/turned.hpp"
 
 namespace limpet::paper {
 namespace {

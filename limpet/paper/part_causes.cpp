@@ -13,7 +13,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/parallel.hpp"
 #include "limpet/paper/oscillation.hpp"
-#include "limpet/paper/study.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/study/sobol.hpp"
 
 namespace limpet::paper {

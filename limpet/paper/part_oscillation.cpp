@@ -11,8 +11,7 @@
 #include "limpet/core/parallel.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/oscillation.hpp"
-#include "limpet/paper/study.hpp"
-#include "limpet/paper/turned.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/loader.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/paper/study.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/scenario/data_folder.hpp"
 
 namespace limpet::paper {

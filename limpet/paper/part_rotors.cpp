@@ -4,7 +4,7 @@
 #include <array>
 
 #include "limpet/identification/rotor_bench.hpp"
-#include "limpet/paper/study.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
 

@@ -13,8 +13,7 @@
 #include "limpet/core/file_kind.hpp"
 #include "limpet/core/folder_lock.hpp"
 #include "limpet/core/version.hpp"
-#include "limpet/paper/claims.hpp"
-#include "limpet/paper/study.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 
@@ -64,47 +63,11 @@ std::vector<report::Claim> judged(const Study& study, const std::vector<StudyPar
 
 }  // namespace
 
-Evidence counted(const std::vector<report::Claim>& claims) {
-    std::map<std::string, double> counts;
-    for (const report::Claim& claim : claims) {
-        const bool reproduced = claim.verdict == report::Verdict::reproduced;
-        std::string name = claim.basis;
-        std::replace(name.begin(), name.end(), ' ', '_');
-        if (claim.verdict == report::Verdict::not_modelled) {
-            name = "not_modelled";
-        } else if (!claim.same_as.empty()) {
-            name = "said_twice";
-        } else if (claim.verdict == report::Verdict::hangs_on_assumptions) {
-            name = "hang_on_assumptions";
-        } else if (!reproduced) {
-            name = claim.basis == "measured" ? "measured_differs" : "others_differ";
-        }
-        counts["statements." + name] += 1.0;
-    }
-    Evidence all;
-    for (const std::string& name : kSummaryCounts) {
-        all.set(name, counts[name]);
-    }
-    return all;
-}
-
-std::vector<std::pair<std::string, std::vector<std::string>>> hanging(
-    const std::vector<report::Claim>& claims) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> all;
-    for (const report::Claim& claim : claims) {
-        for (const std::string& one : claim.hangs_on) {
-            const std::string turn = one.substr(0, one.find(": "));
-            auto found = std::find_if(all.begin(), all.end(),
-                                      [&turn](const auto& each) { return each.first == turn; });
-            if (found == all.end()) {
-                found = all.insert(all.end(), {turn, {}});
-            }
-            found->second.push_back(claim.id);
-        }
-    }
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-        return a.second.size() > b.second.size();
-    });
+const std::vector<StudyPart>& parts() {
+    static const std::vector<StudyPart> all = {
+        rotors_part(),      suction_part(), trials_part(), flights_part(),     recorded_part(),
+        oscillation_part(), causes_part(),  beyond_part(), assumptions_part(),
+    };
     return all;
 }
 
@@ -114,14 +77,6 @@ std::vector<std::pair<std::string, std::string>> part_titles() {
         titles.emplace_back(part.name, part.title);
     }
     return titles;
-}
-
-std::filesystem::path statements_file() {
-    return scenario::data_root() / "paper" / "statements.yaml";
-}
-
-std::filesystem::path page_text_file() {
-    return scenario::data_root() / "paper" / "page.yaml";
 }
 
 std::vector<std::string> measured_names() {

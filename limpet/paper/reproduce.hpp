@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/paper/claims.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/report/page.hpp"
 
 namespace limpet::paper {
@@ -41,10 +41,7 @@ struct Reproduction {
 /// Names of the parts that `only` takes, with their titles.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> part_titles();
 
-/// The paper's statements and the page's texts among the data, and what evidence all parts together
-/// will have.
-[[nodiscard]] std::filesystem::path statements_file();
-[[nodiscard]] std::filesystem::path page_text_file();
+/// What evidence all parts together will have.
 [[nodiscard]] std::vector<std::string> measured_names();
 
 /// Flies the paper's experiments, measures them, judges its statements and writes

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "limpet/paper/claims.hpp"
-#include "limpet/paper/turned.hpp"
+#include "limpet/paper/parts.hpp"
 
 /// Small experiments on parts of the simulation, each on the code that flies.
 namespace limpet::paper {

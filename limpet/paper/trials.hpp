@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "limpet/campaign/summary.hpp"
-#include "limpet/paper/study.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/statistics/success_curve.hpp"
 
 /// The pendulum trials of Fig. 3: flown, counted by speed, and flown again with what is assumed of

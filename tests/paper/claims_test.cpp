@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/paper/claims.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,8 +11,8 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/paper/reproduce.hpp"
-#include "limpet/paper/study.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/sections.hpp"
 

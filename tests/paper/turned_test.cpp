@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/paper/turned.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +8,7 @@
 
 #include "../apps/program.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/paper/registers.hpp"
+#include "limpet/paper/parts.hpp"
 #include "limpet/paper/reproduce.hpp"
 #include "limpet/scenario/loader.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/paper/registers.hpp"
+#include "limpet/statements/registers.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/study/study.hpp"
 
-namespace limpet::paper {
+namespace limpet::statements {
 namespace {
 
 constexpr std::size_t kMost = 5;
@@ -113,4 +113,4 @@ std::vector<ReadmeClaim> load_readme_claims(const std::filesystem::path& file) {
     return claims;
 }
 
-}  // namespace limpet::paper
+}  // namespace limpet::statements

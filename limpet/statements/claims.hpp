@@ -11,7 +11,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/report/page.hpp"
 
-namespace limpet::paper {
+namespace limpet::statements {
 
 /// What was measured on the simulation, under names that claims refer to: "perch_metal.release_s",
 /// "press_metal.tau_1_s". NaN: it was looked for and did not come to pass.
@@ -65,4 +65,4 @@ struct TurnedEvidence {
 [[nodiscard]] report::Claim judge(const PaperStatement& statement, const Evidence& evidence,
                                   const std::vector<TurnedEvidence>& turned = {});
 
-}  // namespace limpet::paper
+}  // namespace limpet::statements

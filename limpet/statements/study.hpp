@@ -5,17 +5,16 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "limpet/draw/chart.hpp"
-#include "limpet/paper/claims.hpp"
 #include "limpet/report/page.hpp"
+#include "limpet/statements/claims.hpp"
 
-namespace limpet::paper {
+namespace limpet::statements {
 
 struct StudyPart;
 using TableRows = std::vector<std::vector<report::Quantity>>;
@@ -73,19 +72,6 @@ struct StudyPart {
 /// @param words  where there is no number
 [[nodiscard]] report::Quantity number_or(double value, const char* words);
 
-// Each brings its tables, figures and evidence.
-[[nodiscard]] StudyPart rotors_part();       ///< Table I
-[[nodiscard]] StudyPart suction_part();      ///< Table II, Fig. 2
-[[nodiscard]] StudyPart trials_part();       ///< Fig. 3
-[[nodiscard]] StudyPart flights_part();      ///< Figs. 9 to 15
-[[nodiscard]] StudyPart recorded_part();     ///< Figs. 4, 5
-[[nodiscard]] StudyPart oscillation_part();  ///< the open question
-[[nodiscard]] StudyPart causes_part();       ///< of it, with probabilities
-[[nodiscard]] StudyPart beyond_part();       ///< valve, energy, break-off loads
-[[nodiscard]] StudyPart assumptions_part();  ///< what README.md's claims hang on
-/// In the paper's order.
-[[nodiscard]] const std::vector<StudyPart>& parts();
-
 /// The page's texts around its numbers.
 struct PageText {
     std::string title = {};
@@ -125,9 +111,8 @@ inline const std::vector<std::string> kSummaryCounts = {
 [[nodiscard]] std::string filled(std::string_view text,
                                  const std::function<double(const std::string& name)>& number);
 
-/// A flight, or flights, of parts that are not at hand here, flown elsewhere and kept:
-/// data/paper/recorded/NAME.json, by data/paper/record or tests/px4/real.
-/// @throws InputError when it is none
-[[nodiscard]] nlohmann::json read_recorded(const std::string& name);
+/// The paper's statements and the page's texts among the data.
+[[nodiscard]] std::filesystem::path statements_file();
+[[nodiscard]] std::filesystem::path page_text_file();
 
-}  // namespace limpet::paper
+}  // namespace limpet::statements

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/paper/turned.hpp"
+#include "limpet/statements/turned.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "limpet/core/write_file.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet::paper {
+namespace limpet::statements {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +184,4 @@ void do_again(Study& study, const TurnedExperiment& experiment) {
     }
 }
 
-}  // namespace limpet::paper
+}  // namespace limpet::statements

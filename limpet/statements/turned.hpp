@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "limpet/paper/study.hpp"
 #include "limpet/scenario/scenario.hpp"
+#include "limpet/statements/study.hpp"
 
 /// Experiments done again with an assumed value turned: which verdicts hang on it.
-namespace limpet::paper {
+namespace limpet::statements {
 
 /// By which share of itself a value is turned, as Fig. 3's trials are moved.
 inline constexpr double kTurnedBy = 0.2;
@@ -55,4 +55,4 @@ struct TurnedExperiment {
 /// @throws Interrupted; what was measured until then is in the file
 void do_again(Study& study, const TurnedExperiment& experiment);
 
-}  // namespace limpet::paper
+}  // namespace limpet::statements

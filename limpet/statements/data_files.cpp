@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "limpet/paper/claims.hpp"
-#include "limpet/paper/study.hpp"
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
+#include "limpet/statements/claims.hpp"
+#include "limpet/statements/study.hpp"
 
-namespace limpet::paper {
+namespace limpet::statements {
 namespace {
 
 double number(const scenario::YamlNode& node) {
@@ -244,4 +244,4 @@ std::string filled(std::string_view text,
     }
 }
 
-}  // namespace limpet::paper
+}  // namespace limpet::statements

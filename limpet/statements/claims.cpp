@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/paper/claims.hpp"
+#include "limpet/statements/claims.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <variant>
 
-namespace limpet::paper {
+namespace limpet::statements {
 namespace {
 
 report::Quantity shown(double value, bool yes_no) {
@@ -87,4 +87,4 @@ report::Claim judge(const PaperStatement& statement, const Evidence& evidence,
     return claim;
 }
 
-}  // namespace limpet::paper
+}  // namespace limpet::statements

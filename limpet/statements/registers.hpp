@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "limpet/assumptions/assumptions.hpp"
-#include "limpet/paper/study.hpp"
+#include "limpet/statements/study.hpp"
 
 /// The register of assumptions on a page: what a figure hangs on, and what would settle it.
-namespace limpet::paper {
+namespace limpet::statements {
 
 inline const std::vector<std::string> kMovedColumns = {
     "figure", "as it is", "hangs on", "set to", "change with 10 % more", "settled by"};
@@ -44,4 +44,4 @@ struct ReadmeClaim {
 [[nodiscard]] std::vector<ReadmeClaim> load_readme_claims(const std::filesystem::path& file);
 [[nodiscard]] std::filesystem::path readme_claims_file();
 
-}  // namespace limpet::paper
+}  // namespace limpet::statements
