@@ -20,24 +20,17 @@ constexpr std::size_t kFlags_bytes = 3;
 /// A gap of more sequence numbers is a sender that began anew, or datagrams out of order.
 constexpr std::uint8_t kLargestGap = 127;
 
-/// So many bytes enter a checksum in one go.
-constexpr std::size_t kAtOnce_bytes = 8;
-
 /// CRC-16/MCRF4XX: [k][byte] is what a byte leaves of itself once k more have followed.
 constexpr auto kAfter = [] {
     constexpr std::uint32_t kPolynomial = 0x8408;  // 0x1021, its bits in the order of the wire
-    std::array<std::array<std::uint16_t, 256>, kAtOnce_bytes> after{};
-    for (std::uint32_t byte = 0; byte < 256; ++byte) {
-        std::uint32_t left = byte;
-        for (int bit = 0; bit < 8; ++bit) {
-            left = (left >> 1U) ^ ((left & 1U) != 0 ? kPolynomial : 0U);
-        }
-        after[0][byte] = static_cast<std::uint16_t>(left);
-    }
-    for (std::size_t k = 1; k < kAtOnce_bytes; ++k) {
-        for (std::size_t byte = 0; byte < 256; ++byte) {
-            const std::uint32_t left = after[k - 1][byte];
-            after[k][byte] = static_cast<std::uint16_t>((left >> 8U) ^ after[0][left & 0xFFU]);
+    std::array<std::array<std::uint16_t, 256>, 8> after{};
+    for (std::size_t k = 0; k < after.size(); ++k) {
+        for (std::uint32_t byte = 0; byte < 256; ++byte) {
+            std::uint32_t left = byte;
+            for (std::size_t bit = 0; bit < 8 * (k + 1); ++bit) {
+                left = (left >> 1U) ^ ((left & 1U) != 0 ? kPolynomial : 0U);
+            }
+            after[k][byte] = static_cast<std::uint16_t>(left);
         }
     }
     return after;
@@ -78,10 +71,10 @@ std::uint32_t id_of(const std::uint8_t* at) {
 std::uint16_t frame_checksum(ByteView covered, std::uint8_t crc_extra) {
     std::uint32_t crc = 0xFFFF;
     ByteView rest = covered.subspan(1);
-    for (; rest.size() >= kAtOnce_bytes; rest = rest.subspan(kAtOnce_bytes)) {
+    for (; rest.size() >= kAfter.size(); rest = rest.subspan(kAfter.size())) {
         crc ^= load_little_u16(rest.data());
         crc = kAfter[7][crc & 0xFFU] ^ kAfter[6][crc >> 8U];
-        for (std::size_t k = 2; k < kAtOnce_bytes; ++k) {
+        for (std::size_t k = 2; k < kAfter.size(); ++k) {
             crc ^= kAfter[7 - k][rest[k]];
         }
     }

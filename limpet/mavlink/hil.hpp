@@ -50,8 +50,8 @@ struct HilCount {
     wire::DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
     wire::DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
     /// From a step's messages handed to the kernel (which may let the autopilot run at once) to the
-    /// answer or the end of the wait; the rest of the time is the simulator's own. So is the time
-    /// of a processor that it takes in between, if it then finds the answer there already.
+    /// answer or the end of the wait, without the time of a processor that the simulator takes in
+    /// between if it then finds the answer there; the rest is the simulator's own.
     double waited_s = 0.0;
 };
 
@@ -86,9 +86,8 @@ private:
         std::chrono::nanoseconds worked{};  ///< this thread, ever, by the time that they had gone
     };
 
-    /// The sensors that have just gone.
     [[nodiscard]] const Sent& question() const { return sent_[(sends_ - 1) % sent_.size()]; }
-    /// Longest wait for the answer to them, as things stand.
+    /// Longest wait for the answer to the sensors that have just gone, as things stand.
     [[nodiscard]] std::chrono::milliseconds patience() const;
     [[nodiscard]] HilStatus unanswered() const;
     [[nodiscard]] HilStatus in_lockstep(const Others& others);

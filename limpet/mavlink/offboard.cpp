@@ -20,24 +20,12 @@ namespace {
 /// Space in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
 constexpr std::string_view kAirframe = "SYS_AUTOSTART";
-/// Streams of PX4's onboard link, in messages.xml or not: what repeats ODOMETRY, and what else is
-/// not read here and comes five times a second or more. Source: PX4 v1.15.1, mode Onboard
-constexpr std::array<std::uint32_t, 14> kNotRead = {
-    Attitude::kId,
-    AttitudeQuaternion::kId,
-    LocalPositionNed::kId,
-    GlobalPositionInt::kId,
-    TimeSync::kId,
-    AttitudeTarget::kId,
-    PositionTargetLocalNed::kId,
-    24,   // GPS_RAW_INT
-    36,   // SERVO_OUTPUT_RAW
-    74,   // VFR_HUD
-    105,  // HIGHRES_IMU
-    141,  // ALTITUDE
-    290,  // ESC_INFO
-    291,  // ESC_STATUS
-};
+/// Streams of PX4's onboard link that come five times a second or more and are not read here:
+/// GPS_RAW_INT, ATTITUDE, ATTITUDE_QUATERNION, LOCAL_POSITION_NED, GLOBAL_POSITION_INT,
+/// SERVO_OUTPUT_RAW, VFR_HUD, ATTITUDE_TARGET, POSITION_TARGET_LOCAL_NED, HIGHRES_IMU, TIMESYNC,
+/// ALTITUDE, ESC_INFO, ESC_STATUS. Source: PX4 v1.15.1, mode Onboard
+constexpr std::array<std::uint32_t, 14> kNotRead = {24, 30, 31,  32,  33,  36,  74,
+                                                    83, 85, 105, 111, 141, 290, 291};
 constexpr float kStop = -1.0F;  // an interval: never
 constexpr float kCustomMode = MavModeFlag::custom_mode_enabled;
 

@@ -99,14 +99,14 @@ Vector3 air_W_m_s(const FlightModel& model, const FlightState& state) {
 
 AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
-    const RotorList<double>& speeds_rad_s = state.rotors.speed_rad_s;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const faults::Acting& acting = state.faults.now;
     const Vector3 wind_W_m_s = air_W_m_s(model, state);
-    const Wrench rotors_B = model.nearness.acts()
-                                ? near_wrench_B(model, speeds_rad_s, base, wind_W_m_s)
-                                : vehicle::rotor_wrench_B(airframe, speeds_rad_s, base, wind_W_m_s);
+    const Wrench rotors_B =
+        model.nearness.acts()
+            ? near_wrench_B(model, state.rotors.speed_rad_s, base, wind_W_m_s)
+            : vehicle::rotor_wrench_B(airframe, state.rotors.speed_rad_s, base, wind_W_m_s);
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};

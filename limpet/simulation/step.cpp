@@ -87,45 +87,14 @@ void guide(const FlightModel& model, FlightState& state, guidance::EventList& ev
     }
 }
 
-/// What reaches the autopilot over its link.
-const Setpoint& setpoint_told(const FlightState& state) {
-    return state.faults.now.link_lost ? state.faults.through : state.guidance.setpoint;
-}
-
-RotorCommand control(const FlightModel& model, FlightState& state,
+RotorCommand control(const FlightModel& model, FlightState& state, const Setpoint& setpoint,
                      autopilot::ExternalAutopilot* external) {
     if (external == nullptr) {
-        return autopilot::control(model.autopilot, state.autopilot, setpoint_told(state),
-                                  seconds(state.tick));
+        return autopilot::control(model.autopilot, state.autopilot, setpoint, seconds(state.tick));
     }
     RotorCommand rotors = external->command();
     rotors.command.resize(model.airframe.rotors.size());
     return rotors;
-}
-
-/// The rotors follow their commands, at the battery's cost.
-void drive(const FlightModel& model, FlightState& state, bool pump_ran, const Stride& stride) {
-    const vehicle::AirframeNumbers& airframe = model.airframe;
-    const faults::Acting& acting = state.faults.now;
-    vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
-                  {.battery_share = vehicle::drive_share(airframe, state.battery.voltage_V),
-                   .speed_share = acting.rotors_hit ? &acting.speed_share : nullptr},
-                  stride.ticks);
-    if (acting.charge_at_most < 1.0) {
-        vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
-    }
-    vehicle::step(airframe.battery, state.battery,
-                  vehicle::mechanical_power_W(airframe.rotor, state.rotors), pump_ran,
-                  state.command.armed, stride.ticks * kTick_s);
-}
-
-void move(const FlightModel& model, FlightState& state, plant::Plant& plant, const Stride& stride,
-          TickReport& report, const Outside& outside) {
-    for (int tick = 0; tick < stride.ticks; ++tick) {
-        vehicle::step(model.wind, state.wind);
-        vehicle::step(model.wall_air, state.wall_air);
-    }
-    advance(model, state, plant, stride, report, outside.cup);
 }
 
 }  // namespace
@@ -133,6 +102,7 @@ void move(const FlightModel& model, FlightState& state, plant::Plant& plant, con
 LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightState& state,
                                                plant::Plant& plant, TickReport& report,
                                                const Outside& outside) {
+    const vehicle::AirframeNumbers& airframe = model.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);
     report.restart();
@@ -157,24 +127,39 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
     } else if (due(state.tick, model.guidance_rate_Hz)) {
         guide(model, state, events);
     }
+    const Setpoint& told = acting.link_lost ? state.faults.through : state.guidance.setpoint;
     if (controls && outside.autopilot != nullptr) {
-        outside.autopilot->tell(readings, setpoint_told(state), time_s);
+        outside.autopilot->tell(readings, told, time_s);
     }
     const Stride stride =
         outside.wants_every_tick() ? one_tick(model, state) : next_stride(model, state);
+    const auto move = [&] {
+        for (int tick = 0; tick < stride.ticks; ++tick) {
+            vehicle::step(model.wind, state.wind);
+            vehicle::step(model.wall_air, state.wall_air);
+        }
+        advance(model, state, plant, stride, report, outside.cup);
+    };
     const bool pump_ran = state.cup.status.pump_running;
-    // Where the command does not push yet, the bodies move while who is told computes it.
-    if (stride.pushed_at_its_start()) {
-        move(model, state, plant, stride, report, outside);
+    if (stride.pushed_at_its_start()) {  // who is told computes meanwhile
+        move();
     }
     if (controls) {
-        state.command = control(model, state, outside.autopilot);
+        state.command = control(model, state, told, outside.autopilot);
     }
-    drive(model, state, pump_ran, stride);
+    vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
+                  {.battery_share = vehicle::drive_share(airframe, state.battery.voltage_V),
+                   .speed_share = acting.rotors_hit ? &acting.speed_share : nullptr},
+                  stride.ticks);
+    if (acting.charge_at_most < 1.0) {
+        vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
+    }
+    vehicle::step(airframe.battery, state.battery,
+                  vehicle::mechanical_power_W(airframe.rotor, state.rotors), pump_ran,
+                  state.command.armed, stride.ticks * kTick_s);
     if (!stride.pushed_at_its_start()) {
-        move(model, state, plant, stride, report, outside);
+        move();
     }
-
     state.tick += stride.ticks;
     see_truth(model, state, plant);
     if (!state.ending) {

@@ -12,9 +12,7 @@ struct Stride {
     bool contacts = true;  ///< a leg may touch something
 
     [[nodiscard]] double step_s() const { return ticks * kTick_s / steps; }
-    /// By the rotors as they turn when it begins, not when it ends. The bodies' rates in a long
-    /// step are those of its middle: a force must be that of its beginning, or it comes half a step
-    /// too soon. docs/decisions/0043.
+    /// By the rotors as they turn then, not at its end. docs/decisions/0043.
     [[nodiscard]] bool pushed_at_its_start() const { return ticks > 1; }
 };
 

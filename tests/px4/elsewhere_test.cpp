@@ -36,7 +36,8 @@ struct Elsewhere {
             offboard.say(mavlink::odometry(told, static_cast<std::uint64_t>(1e6 * time_s)));
             Readings readings;
             readings.motion_capture = {.time_s = time_s, .value = {}};
-            (void)autopilot.control(readings, {}, time_s);
+            autopilot.tell(readings, {}, time_s);
+            (void)autopilot.command();
             estimate = autopilot.estimate(time_s);
         }
         return estimate.valid;

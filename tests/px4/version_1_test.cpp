@@ -15,12 +15,14 @@ using testing::HasSubstr;
 TEST(MavlinkVersion1, OnTheSimulatorsLinkIsSaid) {
     mavlink::ScriptedLink wire;
     Px4Autopilot autopilot(wire.link, wire.link, {});
-    (void)autopilot.control({}, {}, 0.0);
+    autopilot.tell({}, {}, 0.0);
+    (void)autopilot.command();
     EXPECT_THAT(autopilot.obstacle(), HasSubstr("has not answered HIL_SENSOR"));
     for (int k = 0; k < 3; ++k) {
         wire.ends->to_receive.push_back(mavlink::heartbeat_of_version_1());
     }
-    (void)autopilot.control({}, {}, 0.004);
+    autopilot.tell({}, {}, 0.004);
+    (void)autopilot.command();
     EXPECT_THAT(autopilot.obstacle(), HasSubstr("speaks MAVLink 1, which is not read"));
     EXPECT_EQ(wire.link.count().refusals.version_1, 3U);
 }
@@ -31,7 +33,8 @@ TEST(MavlinkVersion1, OnGuidancesLinkIsSaid) {
     for (int k = 0; k < 10; ++k) {
         hil.say(mavlink::HilActuatorControls{.time_usec = 1});
         offboard.ends->to_receive.push_back(mavlink::heartbeat_of_version_1());
-        (void)autopilot.control({}, {}, 0.004 * k);
+        autopilot.tell({}, {}, 0.004 * k);
+        (void)autopilot.command();
         (void)autopilot.estimate(0.004 * k);
     }
     EXPECT_EQ(hil.link.count().refusals.version_1, 0U);

@@ -58,7 +58,8 @@ TEST(Px4Wires, WhoConnectsAndIsSilentIsWaitedForNoLonger) {
     while (!wires.autopilot().failure() && time_s < 60.0) {
         time_s += 0.004;
         readings.imu = {time_s, {}};
-        (void)wires.autopilot().control(readings, {}, time_s);
+        wires.autopilot().tell(readings, {}, time_s);
+        (void)wires.autopilot().command();
     }
     ASSERT_TRUE(wires.autopilot().failure());
     EXPECT_THAT(std::string(*wires.autopilot().failure()),
