@@ -104,13 +104,16 @@ function(limpet_text variable file)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
-# limpet_test(MODULE SOURCES files... LINKS targets... [LABEL label] [ALONE]): one test program a module.
-# ALONE: no other test runs meanwhile, for it runs in real time.
+# limpet_test(MODULE SOURCES files... LINKS targets... [LABEL label] [ALONE] [SECONDS limit]): one test program a module.
+# ALONE: no other test runs meanwhile, for it runs in real time. SECONDS: after which a test has failed; 300 without it.
 # The label `pictures` is for tests that draw: the sanitizers leave them out, they would watch Mesa.
 function(limpet_test module)
-  cmake_parse_arguments(TEST "ALONE" "LABEL" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(TEST "ALONE" "LABEL;SECONDS" "SOURCES;LINKS" ${ARGN})
   if(NOT TEST_LABEL)
     set(TEST_LABEL unit)
+  endif()
+  if(NOT TEST_SECONDS)
+    set(TEST_SECONDS 300)
   endif()
   add_executable(${module}_test ${TEST_SOURCES})
   target_link_libraries(${module}_test PRIVATE ${TEST_LINKS} GTest::gmock GTest::gtest_main)
@@ -119,7 +122,7 @@ function(limpet_test module)
   limpet_precompile(${module}_test tests)
   limpet_unity(${module}_test)
   gtest_discover_tests(${module}_test TEST_PREFIX ${module}. DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300 LABELS ${TEST_LABEL} RUN_SERIAL ${TEST_ALONE})
+    PROPERTIES TIMEOUT ${TEST_SECONDS} LABELS ${TEST_LABEL} RUN_SERIAL ${TEST_ALONE})
 endfunction()
 
 # A compiler that nobody has tried may see more than GCC 10, 12, 13 and 14 do, and GCC sees ghosts in

@@ -61,7 +61,7 @@ void expect_figures(const Json& figures, const fs::path& page) {
     }
 }
 
-/// The whole page, once: it takes the better part of a minute.
+/// The whole page, once: it takes three minutes of two cores.
 TEST(Reproduce, QuickWritesAWholePage) {
     const Bench bench;
     const Finished done = bench.run({"reproduce", "--quick", "--out", "page"});
