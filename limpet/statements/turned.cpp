@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "limpet/assumptions/assumptions.hpp"
 #include "limpet/core/errors.hpp"
@@ -47,10 +48,7 @@ Json values_of(const Evidence& evidence, const std::set<std::string>& names) {
 }
 
 /// What has been measured with one value turned; null: it does not go with the others.
-struct Measured {
-    Turn turn;
-    Json values;
-};
+using Measured = std::pair<Turn, Json>;
 
 /// The file of an experiment.
 class Kept {
@@ -69,8 +67,8 @@ public:
 
     [[nodiscard]] const Json* find(const Turn& turn) const {
         const auto found = std::find_if(all_.begin(), all_.end(),
-                                        [&turn](const Measured& one) { return one.turn == turn; });
-        return found == all_.end() ? nullptr : &found->values;
+                                        [&turn](const Measured& one) { return one.first == turn; });
+        return found == all_.end() ? nullptr : &found->second;
     }
 
     void add(const std::vector<Measured>& more) {
@@ -78,7 +76,7 @@ public:
         Json turned = Json::array();
         for (const Measured& one : all_) {
             turned.push_back(
-                {{"key", one.turn.key}, {"more", one.turn.more}, {"evidence", one.values}});
+                {{"key", one.first.key}, {"more", one.first.more}, {"evidence", one.second}});
         }
         const Json json = {{"of", of_}, {"turned", std::move(turned)}};
         fs::create_directories(file_.parent_path());
@@ -168,9 +166,9 @@ void do_again(Study& study, const TurnedExperiment& experiment) {
         std::vector<Measured> measured(std::min(part, missing.size() - from));
         for_each_index(measured.size(), study.jobs, [&](std::size_t i) {
             study.say("");
-            measured[i].turn = missing[from + i];
+            measured[i].first = missing[from + i];
             try {
-                measured[i].values = values_of(experiment.measure(measured[i].turn), names);
+                measured[i].second = values_of(experiment.measure(measured[i].first), names);
             } catch (const InputError&) {  // the value does not go with the others
             }
         });

@@ -190,9 +190,9 @@ double chi_squared_beyond(double chi2, int degrees) {
     const bool odd = degrees % 2 != 0;
     double log_term = (odd ? 0.5 * std::log(2.0 * chi2 / kPi) : 0.0) - half;
     double sum = odd ? std::erfc(std::sqrt(half)) : 0.0;
-    for (double k = odd ? 0.5 : 0.0; k < 0.5 * degrees; k += 1.0) {
+    for (int twice_k = odd ? 1 : 0; twice_k < degrees; twice_k += 2) {
         sum += std::exp(log_term);
-        log_term += std::log(half / (k + 1.0));
+        log_term += std::log(half / (0.5 * twice_k + 1.0));
     }
     return sum;
 }
