@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 namespace limpet::mavlink {
 namespace {
@@ -24,13 +23,6 @@ constexpr std::size_t kBootSensors = 50;
 constexpr milliseconds kSlowBootWait{50};
 /// It has answered earlier sensors just now: the answer to these is on its way.
 constexpr milliseconds kCatchUpWait{1000};
-
-/// By the clock of the processor: the autopilot's threads may run where this one would.
-std::chrono::nanoseconds worked() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
 
 }  // namespace
 
@@ -58,7 +50,7 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec,
     (void)link_.send(sensor);
     Sent& sent = sent_[sends_ % sent_.size()];
     const Sent& before = sent_[(sends_ + sent_.size() - 1) % sent_.size()];
-    sent = {.time_usec = time_usec, .at = Clock::now(), .worked = {}};
+    sent = {.time_usec = time_usec, .at = Clock::now(), .gone = {}};
     if (options_.timing == HilTiming::real_time && sends_ > 0) {
         const double meant_s = 1e-6 * static_cast<double>(time_usec - before.time_usec);
         const double took_s = duration<double>(sent.at - before.at).count();
@@ -70,7 +62,7 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec,
     if (link_.uncork() == wire::TransferStatus::done) {
         ++count_.sensors_sent;
     }
-    sent.worked = worked();
+    sent.gone = Clock::now();
     ++sends_;
 }
 
@@ -129,7 +121,7 @@ HilStatus Hil::in_lockstep(const Others& others) {
     const std::uint64_t time_usec = question().time_usec;
     const Clock::time_point begin = Clock::now();
     // An answer that is there already has waited for us.
-    Clock::duration ours = worked() - question().worked;
+    Clock::duration ours = begin - question().gone;
     Clock::duration left{};
     while (answered_usec_ != time_usec) {
         if (const auto frame = link_.receive(std::min<Clock::duration>(kSlice, left))) {

@@ -50,8 +50,8 @@ struct HilCount {
     wire::DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
     wire::DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
     /// From a step's messages handed to the kernel (which may let the autopilot run at once) to the
-    /// answer or the end of the wait, without the time of a processor that the simulator takes in
-    /// between if it then finds the answer there; the rest is the simulator's own.
+    /// answer or the end of the wait, without what the simulator does in between if it then finds
+    /// the answer there; the rest is the simulator's own.
     double waited_s = 0.0;
 };
 
@@ -83,7 +83,7 @@ private:
     struct Sent {
         std::uint64_t time_usec = 0;
         Clock::time_point at;
-        std::chrono::nanoseconds worked{};  ///< this thread, ever, by the time that they had gone
+        Clock::time_point gone;  ///< the kernel has them
     };
 
     [[nodiscard]] const Sent& question() const { return sent_[(sends_ - 1) % sent_.size()]; }
