@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "limpet/core/enum_names.hpp"
 #include "limpet/measured/measured.hpp"
 
 namespace limpet::app {
@@ -45,7 +46,7 @@ std::size_t points_of(const Measurement& row) {
 void print_row(const ValidateOptions& options, const Measurement& row, const Comparison& found) {
     fmt::print("  {:<27} {:>6}  {:>7.3g}  {:>7.3g}  {:>7}  {:>7}  {:<7}  {}\n", row.id,
                points_of(row), found.rms, found.largest, or_dash(row.scatter, "{:.3g}"),
-               or_dash(found.p, "{:.2g}"), to_string(found.verdict), fitted_text(row, found));
+               or_dash(found.p, "{:.2g}"), name_of(found.verdict), fitted_text(row, found));
     if (options.notes) {
         fmt::print("      {} [{}]\n      {}\n", row.what, row.unit, row.source);
         fmt::print("      scatter {}: {}\n", or_dash(row.scatter, "{:g}"), row.scatter_of);
@@ -104,7 +105,7 @@ Json json_of(const Measurement& row, const Comparison& found) {
             {"scatter", or_null(row.scatter)},
             {"scatter_of", row.scatter_of},
             {"p", or_null(found.p)},
-            {"verdict", to_string(found.verdict)},
+            {"verdict", name_of(found.verdict)},
             {"note", row.note},
             {"series", series}};
 }

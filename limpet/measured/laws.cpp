@@ -53,13 +53,16 @@ std::vector<double> ground(const Numbers& numbers, std::span<const double> x) {
     return ground_of({vehicle::Rotor{}}, false, numbers, x);
 }
 
-/// Two or four rotors so far apart, with environment.ground_neighbours.
+/// Rotors on a regular polygon whose sides are so long, with environment.ground_neighbours.
 std::vector<double> ground_neighbours(const Numbers& numbers, std::span<const double> x) {
-    const double half = 0.5 * numbers.at("spacing_radii");
-    const RotorList<vehicle::Rotor> two = {{{0.0, half, 0.0}}, {{0.0, -half, 0.0}}};
-    const RotorList<vehicle::Rotor> four = {
-        {{half, half, 0.0}}, {{half, -half, 0.0}}, {{-half, half, 0.0}}, {{-half, -half, 0.0}}};
-    return ground_of(numbers.at("rotors") > 2.0 ? four : two, true, numbers, x);
+    RotorList<vehicle::Rotor> rotors(static_cast<std::size_t>(numbers.at("rotors")));
+    const double step_rad = 2.0 * kPi / numbers.at("rotors");
+    const double arm_radii = 0.5 * numbers.at("spacing_radii") / std::sin(0.5 * step_rad);
+    for (std::size_t i = 0; i < rotors.size(); ++i) {
+        const double at_rad = static_cast<double>(i) * step_rad;
+        rotors[i].p_B_m = {arm_radii * std::sin(at_rad), arm_radii * std::cos(at_rad), 0.0};
+    }
+    return ground_of(rotors, true, numbers, x);
 }
 
 std::vector<double> ceiling(const Numbers& /*numbers*/, std::span<const double> x) {
@@ -76,18 +79,30 @@ std::vector<double> wall_moment(const Numbers& /*numbers*/, std::span<const doub
 
 // --- suction ------------------------------------------------------------------------------------
 
+double vacuum_share(const suction::Surface& surface, double pressure_Pa) {
+    return (kAtmosphere_Pa - pressure_Pa) / (kAtmosphere_Pa - surface.vacuum_pressure_Pa);
+}
+
 /// Eq. (5), as a share of the greatest vacuum; of a sensor that ends earlier, of what it shows.
 std::vector<double> sealing_first_order(const Numbers& numbers, std::span<const double> x) {
-    const double tau_s = numbers.at("tau_s");
+    suction::Surface surface;
+    surface.sealing_time_constant_s = numbers.at("tau_s");
     const double seen = given(numbers, "seen_share", 1.0);
-    return each(x,
-                [=](double t_s) { return std::min(1.0, (1.0 - std::exp(-t_s / tau_s)) / seen); });
+    return each(x, [&](double t_s) {
+        const double pressure_Pa =
+            pressure_after(surface, {}, suction::Airflow::sealing, kAtmosphere_Pa, t_s);
+        return std::min(1.0, vacuum_share(surface, pressure_Pa) / seen);
+    });
 }
 
 /// Eq. (6), as a share of the vacuum at its beginning.
 std::vector<double> leak_first_order(const Numbers& numbers, std::span<const double> x) {
-    const double tau_s = numbers.at("tau_s");
-    return each(x, [tau_s](double t_s) { return std::exp(-t_s / tau_s); });
+    suction::Surface surface;
+    surface.unsealing_time_constant_s = numbers.at("tau_s");
+    return each(x, [&](double t_s) {
+        return vacuum_share(surface, pressure_after(surface, {}, suction::Airflow::unsealing,
+                                                    surface.vacuum_pressure_Pa, t_s));
+    });
 }
 
 /// The shipped cup, pump and hose on metal, the pump by its speed, as a share of the vacuum that
@@ -116,8 +131,12 @@ std::vector<double> sealing_pneumatic(const Numbers& numbers, std::span<const do
 
 /// A rotor's two time constants, one of them here: share of a step that is done.
 std::vector<double> motor_first_order(const Numbers& numbers, std::span<const double> x) {
-    const double tau_s = numbers.at("tau_s");
-    return each(x, [tau_s](double t_s) { return 1.0 - std::exp(-t_s / tau_s); });
+    vehicle::RotorParameters rotor;
+    rotor.time_constant_up_s = numbers.at("tau_s");
+    rotor.command_delay_s = 0.0;
+    return each(x, [&](double t_s) {
+        return t_s > 0.0 ? 1.0 - vehicle::make_lag(rotor, t_s).keep_up : 0.0;
+    });
 }
 
 /// KV, resistance, torque and inertia: share of a step from one speed to another.
@@ -134,11 +153,13 @@ std::vector<double> motor_physical(const Numbers& numbers, std::span<const doubl
     });
 }
 
+constexpr Quantity kTilt = {.name = "tilt_deg", .from = -90.0, .to = 90.0};
+
 const std::array<Law, 10> kLaws = {{
-    {.name = "ground", .needs = {}, .allows = {"tilt_deg"}, .without = 1.0, .say = ground},
+    {.name = "ground", .needs = {}, .allows = {kTilt}, .without = 1.0, .say = ground},
     {.name = "ground_neighbours",
-     .needs = {"rotors"},
-     .allows = {"tilt_deg"},
+     .needs = {{.name = "rotors", .from = 2.0, .to = kMaxRotors, .whole = true}},
+     .allows = {kTilt},
      .without = 1.0,
      .fits = "spacing_radii",
      .fits_from = 2.0,
@@ -149,7 +170,7 @@ const std::array<Law, 10> kLaws = {{
     {.name = "wall_moment", .needs = {}, .allows = {}, .without = 0.0, .say = wall_moment},
     {.name = "sealing_first_order",
      .needs = {},
-     .allows = {"seen_share"},
+     .allows = {{.name = "seen_share", .from = 0.01, .to = 1.0}},
      .fits = "tau_s",
      .fits_from = 0.02,
      .fits_to = 50.0,
@@ -163,21 +184,25 @@ const std::array<Law, 10> kLaws = {{
      .say = leak_first_order},
     {.name = "sealing_pneumatic",
      .needs = {},
-     .allows = {"pump_ultimate_Pa", "cup_gives_way"},
+     .allows = {{.name = "pump_ultimate_Pa", .from = 100.0, .to = 1e5},
+                {.name = "cup_gives_way", .to = 1.0}},
      .fits = "pump_speed_L_min",
      .fits_from = 0.3,
      .fits_to = 60.0,
      .say = sealing_pneumatic},
     {.name = "motor_first_order",
      .needs = {},
-     .allows = {"from_rad_s", "to_rad_s"},
+     .allows = {{.name = "from_rad_s"}, {.name = "to_rad_s"}},
      .fits = "tau_s",
      .fits_from = 1e-3,
      .fits_to = 1.0,
      .say = motor_first_order},
     {.name = "motor_physical",
-     .needs = {"damping_N_m_s", "torque_constant_N_m_s2", "from_rad_s", "to_rad_s"},
-     .allows = {"brakes"},
+     .needs = {{.name = "damping_N_m_s"},
+               {.name = "torque_constant_N_m_s2"},
+               {.name = "from_rad_s"},
+               {.name = "to_rad_s"}},
+     .allows = {{.name = "brakes", .to = 1.0, .whole = true}},
      .fits = "inertia_kg_m2",
      .fits_from = 1e-8,
      .fits_to = 1e-3,

@@ -99,15 +99,6 @@ bool is_given(const Measurement& measurement) {
 
 }  // namespace
 
-std::string_view to_string(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::holds: return "holds";
-        case Verdict::differs: return "differs";
-        case Verdict::open: return "open";
-    }
-    throw InternalError("no such verdict");
-}
-
 Comparison compare(const Measurement& measurement) {
     Comparison found;
     if (!measurement.law->fits.empty() && !is_given(measurement)) {
@@ -124,6 +115,7 @@ Comparison compare(const Measurement& measurement) {
     }
     const double squared = squares(measurement, found.said);
     found.rms = std::sqrt(squared / points);
+    require(std::isfinite(found.rms), "a law's answers are finite");
     const int degrees = points - (found.fitted ? 1 : 0);
     if (!measurement.scatter || degrees < 1) {
         return found;

@@ -16,11 +16,18 @@ namespace limpet::measured {
 /// By name: "tilt_deg", "pump_ultimate_Pa".
 using Numbers = std::map<std::string, double>;
 
+/// A number that a law looks at, and where it has a meaning.
+struct Quantity {
+    std::string_view name;
+    double from = 0.0, to = 1e9;
+    bool whole = false;
+};
+
 /// A model's answer to a measurement.
 struct Law {
     std::string_view name;
-    std::vector<std::string_view> needs;   ///< numbers that a series must have
-    std::vector<std::string_view> allows;  ///< and may have
+    std::vector<Quantity> needs;   ///< that a series must have
+    std::vector<Quantity> allows;  ///< and may have
     /// What it says where there is nothing to say: a gain of 1, no force.
     std::optional<double> without = {};
     /// The number that is fitted where it is not given; empty: the law has none.
@@ -72,7 +79,8 @@ struct Measurements {
 
 /// Every file of a folder like data/others, by name; the head of ground.yaml describes the keys.
 /// @throws InputError for what is not so: no file there, an unknown key or law, a number that the
-/// law has no use for or lacks, x that does not rise, lists of different lengths
+/// law has no use for, lacks or has no answer at, x that does not rise from 0 or above, lists of
+/// different lengths
 [[nodiscard]] Measurements load_measurements(const std::filesystem::path& folder);
 /// Of the data.
 [[nodiscard]] std::filesystem::path others_folder();
@@ -82,7 +90,6 @@ enum class Verdict {
     differs,  ///< it does not: the measurement shows that the law is not all
     open,     ///< no scatter is known, or one so large that Law::without would hold as well
 };
-[[nodiscard]] std::string_view to_string(Verdict verdict);
 
 /// Below this probability a row differs.
 inline constexpr double kRare = 0.01;

@@ -24,6 +24,17 @@ double number(const YamlNode& node) {
     return *value;
 }
 
+double read_quantity(const YamlNode& node, const Quantity& quantity) {
+    const double value = number(node);
+    if (value < quantity.from || value > quantity.to) {
+        fail(node, fmt::format("must be from {} to {}", quantity.from, quantity.to));
+    }
+    if (quantity.whole && value != std::round(value)) {
+        fail(node, "must be a whole number");
+    }
+    return value;
+}
+
 std::vector<double> numbers_of(const YamlNode& node) {
     std::vector<double> values;
     for (const YamlNode& item : scenario::read_list(node, "a list of numbers", 1)) {
@@ -46,22 +57,47 @@ void read_numbers(const YamlNode& map, const Law& law, Numbers& numbers) {
     if (section == nullptr) {
         return;
     }
-    std::vector<std::string_view> known = law.needs;
+    std::vector<Quantity> known = law.needs;
     known.insert(known.end(), law.allows.begin(), law.allows.end());
     if (!law.fits.empty()) {
-        known.push_back(law.fits);
+        known.push_back({.name = law.fits});
     }
-    check_keys(*section, known);
+    std::vector<std::string_view> names;
+    for (const Quantity& quantity : known) {
+        names.push_back(quantity.name);
+    }
+    check_keys(*section, names);
     for (const YamlNode& entry : section->children) {
-        numbers[entry.key] = number(entry);
+        const auto at = std::find(names.begin(), names.end(), entry.key) - names.begin();
+        numbers[entry.key] = read_quantity(entry, known[static_cast<std::size_t>(at)]);
     }
 }
 
-void require_numbers(const YamlNode& node, const Law& law, const Numbers& numbers) {
-    for (const std::string_view name : law.needs) {
-        if (numbers.count(std::string(name)) == 0) {
-            fail(node, fmt::format("lacks the number {}, which {} needs", name, law.name));
+/// With the least of what is fitted, where that is not given.
+void require_answers(const YamlNode& node, const Law& law, const Series& series) {
+    for (const Quantity& quantity : law.needs) {
+        if (series.numbers.count(std::string(quantity.name)) == 0) {
+            fail(node, fmt::format("lacks the number {}, which {} needs", quantity.name, law.name));
         }
+    }
+    Numbers numbers = series.numbers;
+    if (!law.fits.empty()) {
+        numbers.emplace(law.fits, law.fits_from);
+    }
+    for (const double said : law.say(numbers, series.x)) {
+        if (!std::isfinite(said)) {
+            fail(node, fmt::format("gives {} no finite answer", law.name));
+        }
+    }
+}
+
+/// What is fitted is fitted to all series together.
+void require_alike(const YamlNode& node, const Law& law, const std::vector<Series>& series) {
+    const auto given = std::count_if(series.begin(), series.end(), [&](const Series& one) {
+        return one.numbers.count(std::string(law.fits)) > 0;
+    });
+    if (given != 0 && given != static_cast<std::ptrdiff_t>(series.size())) {
+        fail(node, fmt::format("must have the number {} in each or in none", law.fits));
     }
 }
 
@@ -70,7 +106,6 @@ Series read_series(const YamlNode& map, const Law& law, const Numbers& of_all) {
     Series series{
         .numbers = of_all, .x = numbers_of(needed(map, "x")), .y = numbers_of(needed(map, "y"))};
     read_numbers(map, law, series.numbers);
-    require_numbers(map, law, series.numbers);
     if (series.x.size() != series.y.size()) {
         fail(needed(map, "y"), fmt::format("must have {} numbers, as x has", series.x.size()));
     }
@@ -78,6 +113,10 @@ Series read_series(const YamlNode& map, const Law& law, const Numbers& of_all) {
         series.x.end()) {
         fail(needed(map, "x"), "must rise");
     }
+    if (series.x.front() < 0.0) {
+        fail(needed(map, "x"), "must be 0 or more");
+    }
+    require_answers(map, law, series);
     return series;
 }
 
@@ -96,7 +135,7 @@ std::vector<Series> series_of(const YamlNode& node, const std::vector<Measuremen
         for (const auto& [name, value] : of_all) {
             one.numbers[name] = value;
         }
-        require_numbers(node, law, one.numbers);
+        require_answers(node, law, one);
     }
     return series;
 }
@@ -125,12 +164,13 @@ Measurement read_measurement(const YamlNode& map, const std::string& group,
     const YamlNode& series = needed(map, "series");
     if (series.kind == YamlNode::Kind::scalar) {
         row.series = series_of(series, above, group, *row.law, of_all);
-        return row;
+    } else {
+        for (const YamlNode& item :
+             read_list(series, "a list of series, or the name of a row above", 1)) {
+            row.series.push_back(read_series(item, *row.law, of_all));
+        }
     }
-    for (const YamlNode& item :
-         read_list(series, "a list of series, or the name of a row above", 1)) {
-        row.series.push_back(read_series(item, *row.law, of_all));
-    }
+    require_alike(series, *row.law, row.series);
     return row;
 }
 
@@ -151,6 +191,10 @@ std::filesystem::path others_folder() {
 
 Measurements load_measurements(const std::filesystem::path& folder) {
     Measurements read;
+    if (!std::filesystem::is_directory(folder)) {
+        throw InputError(scenario::shown(folder.string()) +
+                         ": no such folder; one with measurements, which are *.yaml, is needed");
+    }
     if (scenario::names_in(folder).empty()) {
         throw InputError(scenario::shown(folder.string()) +
                          ": holds no measurements, which are *.yaml");

@@ -7,8 +7,7 @@
 
 /// What ground and ceiling do to a rotor's thrust:
 ///
-///   ground   T / T_free = 1 / (1 - s), s = (R / 4z)^2, z from the ground to the propeller: what
-///   the
+///   ground   T / T_free = 1 / (1 - s), s = (R / 4z)^2, z from the ground to the propeller: the
 ///            image of its wake's source below the ground blows up at it; with its neighbours each
 ///            other rotor's image adds R^2/4 h / (d^2 + h^2)^(3/2) to s, d beside it and h below
 ///   ceiling  T / T_free over d/R, d from the propeller to the ceiling, as measured at the same

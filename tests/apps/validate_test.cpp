@@ -87,7 +87,7 @@ TEST(ValidateVerb, RefusesABadFileInOneLineWithItsPlace) {
     refused("scatter: 0.002", "scatter: -1", {"air.yaml:7: near.scatter", "above 0"});
     refused("y: [1.2, 1.1]", "y: [1.2]", {"air.yaml:11: near.series[0].y", "2 numbers"});
     refused("source: somebody", "sauce: somebody", {"air.yaml:3: near.sauce"});
-    expect_refused(bench.run({"validate", "nowhere"}), {"nowhere", "*.yaml"});
+    expect_refused(bench.run({"validate", "nowhere"}), {"nowhere", "no such folder", "*.yaml"});
     expect_refused(bench.run({"validate", "--jason"}), {"--jason"});
 }
 

@@ -211,6 +211,21 @@ TEST(MeasuredFile, RefusesInOneLineWithItsPlace) {
           Case{with("  scatter_of: so\n", ""), "scatter_of"},
           Case{with("law: ground", "law: motor_physical"), "lacks the number damping_N_m_s"},
           Case{with("law: ground", "law: ground\n  numbers: {tilt: 1}"), "a.numbers.tilt"},
+          Case{with("law: ground", "law: ground\n  numbers: {tilt_deg: 91}"),
+               "air.yaml:7: a.numbers.tilt_deg: must be from -90 to 90"},
+          Case{with("law: ground", "law: ground_neighbours\n  numbers: {rotors: 2.5}"),
+               "a.numbers.rotors: must be a whole number"},
+          Case{with("x: [1, 2]", "x: [-1, 2]"), "air.yaml:10: a.series[0].x: must be 0 or more"},
+          Case{with("law: ground", "law: sealing_first_order\n  numbers: {seen_share: 0}"),
+               "a.numbers.seen_share: must be from 0.01 to 1"},
+          // a step of no height
+          Case{with("law: ground",
+                    "law: motor_physical\n  numbers: {damping_N_m_s: 1e-4, from_rad_s: 5, "
+                    "torque_constant_N_m_s2: 1e-8, to_rad_s: 5}"),
+               "gives motor_physical no finite answer"},
+          Case{with("law: ground", "law: leak_first_order") +
+                   "    - {numbers: {tau_s: 1}, x: [1], y: [1]}\n",
+               "a.series: must have the number tau_s in each or in none"},
           Case{kGood + "looked_at:\n  - {what: w, where: h}\n", "why"},
           Case{with("  series:\n    - x: [1, 2]\n      y: [1.1, 1]\n", "  series: z\n"),
                "is no row above"}}) {
