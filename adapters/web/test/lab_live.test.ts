@@ -96,7 +96,7 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
   const problem = await page.$eval("#problem", (e) => e.textContent);
   assert.match(problem ?? "", /as a flight of this machine prints it/);
 
-  const flight = new Flight(0.5); // not on the wall before a slow page has paused it
+  const flight = new Flight(0.1); // not on the wall before a slow page has paused it, and asked for a take-off
   await watch(await flight.line());
   await until(({ messages }) => messages > 500);
   assert.deepEqual((await live()).services, ["Pause", "Resume", "Take off", "Abort"]);
@@ -119,7 +119,7 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
 
   // What was is looked at while it flies on; then it is followed again.
   await page.$eval("#timeline input", (slider) => {
-    (slider as HTMLInputElement).value = "0.5";
+    (slider as HTMLInputElement).value = "0.25";
     slider.dispatchEvent(new Event("input"));
   });
   assert.equal((await shown()).following, false);
@@ -130,7 +130,7 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
     {},
     held.end,
   );
-  assert.equal((await shown()).time, 0.5);
+  assert.equal((await shown()).time, 0.25);
   await press("Now");
   const again = await shown();
   assert.ok(again.following && again.end > held.end);
