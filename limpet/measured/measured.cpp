@@ -2,7 +2,9 @@
 #include "limpet/measured/measured.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <limits>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/statistics/success_curve.hpp"
@@ -34,11 +36,9 @@ double squares(const Measurement& measurement, const std::vector<std::vector<dou
     return sum;
 }
 
-/// The least of the squares over the logarithm of the number: a coarse scan, then sections.
+/// The least of the squares over the logarithm of the number: a coarse scan, then Brent's search.
 double best_fit(const Measurement& measurement) {
     constexpr int kScan = 24;
-    constexpr int kSections = 40;
-    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
     const double from = std::log(measurement.law->fits_from);
     const double to = std::log(measurement.law->fits_to);
     const auto left = [&](double logarithm) {
@@ -54,28 +54,11 @@ double best_fit(const Measurement& measurement) {
             best = at;
         }
     }
-    double low = std::max(from, best - stride);
-    double high = std::min(to, best + stride);
-    double a = high - golden * (high - low);
-    double b = low + golden * (high - low);
-    double at_a = left(a);
-    double at_b = left(b);
-    for (int k = 0; k < kSections; ++k) {
-        if (at_a < at_b) {
-            high = b;
-            b = a;
-            at_b = at_a;
-            a = high - golden * (high - low);
-            at_a = left(a);
-        } else {
-            low = a;
-            a = b;
-            at_a = at_b;
-            b = low + golden * (high - low);
-            at_b = left(b);
-        }
-    }
-    return std::exp(0.5 * (low + high));
+    const double logarithm = boost::math::tools::brent_find_minima(
+                                 left, std::max(from, best - stride), std::min(to, best + stride),
+                                 std::numeric_limits<double>::digits / 2)
+                                 .first;
+    return std::exp(logarithm);
 }
 
 /// Of a sum of squares, against the measurement's scatter.

@@ -18,8 +18,9 @@ using scenario::YamlNode;
 
 double number(const YamlNode& node) {
     const std::optional<double> value = scenario::number_in(node);
-    if (!value || !std::isfinite(*value)) {
-        fail(node, "must be a finite number");
+    constexpr double kLargest = 1e100;  // its square is a number still
+    if (!value || !(std::abs(*value) <= kLargest)) {
+        fail(node, fmt::format("must be a number of at most {:g}", kLargest));
     }
     return *value;
 }

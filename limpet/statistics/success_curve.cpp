@@ -3,11 +3,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "limpet/core/frames.hpp"
 
 namespace limpet::statistics {
 namespace {
@@ -185,16 +184,7 @@ double half_error(const std::vector<Trials>& trials, const SuccessCurve& scaled,
 }  // namespace
 
 double chi_squared_beyond(double chi2, int degrees) {
-    // Each term by its logarithm: exp(-half) alone is 0 where many degrees make the sum 1.
-    const double half = 0.5 * chi2;
-    const bool odd = degrees % 2 != 0;
-    double log_term = (odd ? 0.5 * std::log(2.0 * chi2 / kPi) : 0.0) - half;
-    double sum = odd ? std::erfc(std::sqrt(half)) : 0.0;
-    for (int twice_k = odd ? 1 : 0; twice_k < degrees; twice_k += 2) {
-        sum += std::exp(log_term);
-        log_term += std::log(half / (0.5 * twice_k + 1.0));
-    }
-    return sum;
+    return std::isinf(chi2) ? 0.0 : boost::math::gamma_q(0.5 * degrees, 0.5 * chi2);
 }
 
 std::optional<Goodness> goodness_of(const std::vector<Trials>& trials,

@@ -21,7 +21,8 @@ struct Goodness {
 };
 
 /// That a chi-squared with so many degrees of freedom is larger.
-/// Source: Abramowitz and Stegun, 26.4.4 and 26.4.5 (finite sums).
+/// @param chi2     >= 0, infinite too
+/// @param degrees  > 0
 [[nodiscard]] double chi_squared_beyond(double chi2, int degrees);
 
 /// @param trials  along ascending x

@@ -205,7 +205,7 @@ TEST(MeasuredFile, RefusesInOneLineWithItsPlace) {
          {Case{with("law: ground", "law: grund"), "air.yaml:6: a.law"},
           Case{with("y: [1.1, 1]", "y: [1.1]"), "air.yaml:11: a.series[0].y: must have 2 numbers"},
           Case{with("x: [1, 2]", "x: [2, 2]"), "must rise"},
-          Case{with("x: [1, 2]", "x: [.nan, 2]"), "must be a finite number"},
+          Case{with("x: [1, 2]", "x: [.nan, 2]"), "must be a number of at most 1e+100"},
           Case{with("scatter: 0.1", "scatter: 0"), "must be above 0"},
           Case{with("scatter_of: so", "scater_of: so"), "air.yaml:8: a.scater_of"},
           Case{with("  scatter_of: so\n", ""), "scatter_of"},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/core/random.hpp"
@@ -37,6 +38,7 @@ TEST(ChiSquared, TablesAndClosedForms) {
     EXPECT_NEAR(chi_squared_beyond(16.918978, 9), 0.05, 1e-7);
     EXPECT_NEAR(chi_squared_beyond(23.209251, 10), 0.01, 1e-7);
     EXPECT_EQ(chi_squared_beyond(0.0, 5), 1.0);
+    EXPECT_EQ(chi_squared_beyond(std::numeric_limits<double>::infinity(), 5), 0.0);
     // Many degrees: the median is n - 2/3 and the density there (4 pi n)^-1/2.
     EXPECT_NEAR(chi_squared_beyond(2000.0, 2000), 0.5 - 2.0 / 3.0 / std::sqrt(8000.0 * kPi), 1e-4);
     EXPECT_NEAR(chi_squared_beyond(2001.0, 2001), 0.5 - 2.0 / 3.0 / std::sqrt(8004.0 * kPi), 1e-4);
