@@ -108,11 +108,13 @@ public:
         stream_.write(boost::asio::buffer(bytes));
     }
     /// The next frame; empty once it is over.
-    /// @throws std::runtime_error if nothing comes within a minute: a test fails before its own limit
+    /// @throws std::runtime_error if nothing comes within a minute: a test fails before its own
+    /// limit
     std::string receive() {
         beast::flat_buffer buffer;
         beast::error_code ended = boost::asio::error::in_progress;
-        stream_.async_read(buffer, [&ended](beast::error_code error, std::size_t) { ended = error; });
+        stream_.async_read(buffer,
+                           [&ended](beast::error_code error, std::size_t) { ended = error; });
         io_.restart();
         io_.run_for(std::chrono::minutes(1));
         if (ended == boost::asio::error::in_progress) {
