@@ -63,8 +63,8 @@ double best_fit(const Measurement& measurement) {
 
 /// Of a sum of squares, against the measurement's scatter.
 double chance(const Measurement& measurement, double squared, int degrees) {
-    const double scatter = *measurement.scatter;
-    return statistics::chi_squared_beyond(squared / (scatter * scatter), degrees);
+    const double errors = std::sqrt(squared) / *measurement.scatter;  // whose square may be 0
+    return statistics::chi_squared_beyond(errors * errors, degrees);
 }
 
 /// Of a law that says nothing at all.

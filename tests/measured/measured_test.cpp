@@ -69,6 +69,10 @@ TEST(Compare, AVerdictIsTheScattersOwnChance) {
     EXPECT_EQ(compare(row).verdict, Verdict::holds);
     row.scatter = 0.01 / std::sqrt(13.4 / 4.0);
     EXPECT_EQ(compare(row).verdict, Verdict::differs);
+    row.scatter = 1e-200;  // whose square is 0
+    EXPECT_EQ(*compare(row).p, 0.0);
+    row.series[0].y = compare(row).said[0];
+    EXPECT_EQ(*compare(row).p, 1.0);
 }
 
 /// One that cannot tell the law from a gain of 1 settles nothing; nor does one without a scatter.
