@@ -89,10 +89,10 @@ struct Watched : testing::Test {
     }
     void answer_one() {
         const std::size_t before = served.size() + set.size();
-        while (served.size() + set.size() == before) {
+        EXPECT_TRUE(serve::test::comes([&] {
             live.answer(desk);
-            std::this_thread::yield();
-        }
+            return served.size() + set.size() != before;
+        }));
     }
 };
 
@@ -124,9 +124,7 @@ TEST_F(Watched, SendsWhatIsSubscribedAndTheTime) {
     (void)next(*viewer, "advertiseServices");
     EXPECT_FALSE(live.watched());
     viewer->send(kSubscribe);
-    while (!live.watched()) {
-        std::this_thread::yield();
-    }
+    ASSERT_TRUE(serve::test::comes([&] { return live.watched(); }));
     tell(1, 1'000, "not asked for");
     tell(0, 2'000, "a pose");
     const std::string time = viewer->receive();
@@ -157,9 +155,7 @@ TEST_F(Watched, WhoComesLateGetsWhatStandsStill) {
         R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":0},{"id":1,"channelId":1}]})");
     EXPECT_EQ(next_bytes(*viewer, 1).substr(13), "wall");
     EXPECT_EQ(next_bytes(*viewer, 1).substr(13), "marks 3");
-    while (!live.watched()) {
-        std::this_thread::yield();
-    }
+    ASSERT_TRUE(serve::test::comes([&] { return live.watched(); }));
     tell(1, 5'000, "another pose");
     EXPECT_EQ(next_bytes(*viewer, 1).substr(13), "another pose");
 }

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 // One who talks to a server on this machine, waiting for each answer.
 namespace limpet::serve::test {
@@ -21,6 +22,20 @@ using boost::asio::ip::tcp;
 
 inline tcp::endpoint here(std::uint16_t port) {
     return {boost::asio::ip::address_v4::loopback(), port};
+}
+
+/// Waits for what another thread does, a minute at most: a test fails before its own limit.
+/// @return whether it came
+template <class Condition>
+[[nodiscard]] bool comes(const Condition& condition) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > until) {
+            return false;
+        }
+        std::this_thread::yield();
+    }
+    return true;
 }
 
 using HttpRequest = http::request<http::string_body>;
